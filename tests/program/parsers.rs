@@ -221,7 +221,7 @@ fn the_page_parses_xml_in_one_place() {
 
 /// Who reads files around descriptions, beside what they name.
 const NAMED_FILES: &[(&str, &str)] = &[
-    ("crates/urdd-diff/src/side_urdd.rs", "the files of a URDD, by its own paths"),
+    ("crates/urdd-diff/src/open.rs", "the files of a URDD, by its own paths"),
     ("crates/urdd-import/src/imported.rs", "the description itself; 64 MiB, a USD 512 MiB"),
     ("crates/urdd-lint/src/lib.rs", "the xacro file that a person names, to show it; 64 MiB"),
     ("crates/urdd-lint/src/srdf.rs", "SRDFs beside the URDF, which it does not name; 16 MiB"),

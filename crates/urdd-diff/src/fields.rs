@@ -1,8 +1,8 @@
-//! The values of a part, in one flat list: parts are equal if their lists are.
+//! The values of a part, in one flat list: parts are equal if their lists are. Parts of two robots are matched by name.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{HashMap, HashSet, VecDeque};
 
-use urdd_format::diff_report::ValueChange;
+use urdd_format::diff_report::{PartDifference, Presence, ValueChange};
 use urdd_format::urdf::Origin;
 
 #[derive(Debug, Clone)]
@@ -18,7 +18,7 @@ struct Field {
 
 /// The values of a part, in order. What is absent has no entry.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Fields(Vec<Field>);
+pub struct Fields(Vec<Field>);
 
 impl Fields {
     pub fn text(&mut self, name: impl Into<String>, value: Option<&str>) {
@@ -123,12 +123,7 @@ impl Field {
 /// The values in which two parts differ: in the order of the first, then those that only the second has. `prefix` goes
 /// before their names. Several values of an element (`limit.lower`, `limit.upper`) that only one part has are one value
 /// (`limit`).
-pub(super) fn compare(
-    prefix: &str,
-    before: &Fields,
-    after: &Fields,
-    tolerance: f64,
-) -> Vec<ValueChange> {
+pub fn compare(prefix: &str, before: &Fields, after: &Fields, tolerance: f64) -> Vec<ValueChange> {
     let (before, after) = (&whole(before, after), &whole(after, before));
     let by_name: HashMap<&str, &Field> = after.0.iter().map(|f| (f.name.as_str(), f)).collect();
     let names: HashSet<&str> = before.0.iter().map(|field| field.name.as_str()).collect();
@@ -188,7 +183,7 @@ fn whole(fields: &Fields, other: &Fields) -> Fields {
 }
 
 /// Numbers as one text: each in its shortest form that reads back as the same number; -0 is 0.
-pub(super) fn numbers(values: &[f64]) -> String {
+pub fn numbers(values: &[f64]) -> String {
     let texts: Vec<String> = values.iter().map(|value| number(*value)).collect();
     texts.join(" ")
 }
@@ -200,4 +195,69 @@ fn number(value: f64) -> String {
         _ if (1e-5..1e15).contains(&size) => value.to_string(),
         _ => format!("{value:e}"),
     }
+}
+
+/// Parts by their names.
+pub type Parts = Vec<(String, Fields)>;
+
+/// A part in one robot or both, with its index in each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Matched<'a> {
+    pub name: &'a str,
+    pub before: Option<usize>,
+    pub after: Option<usize>,
+}
+
+impl Matched<'_> {
+    /// What became of it, if it differs where both have it.
+    pub fn presence(&self) -> Presence {
+        match (self.before, self.after) {
+            (_, None) => Presence::Removed,
+            (None, _) => Presence::Added,
+            _ => Presence::Changed,
+        }
+    }
+
+    pub fn both(&self) -> Option<(usize, usize)> {
+        self.before.zip(self.after)
+    }
+}
+
+/// Matches parts by name: those of the first robot in order, then what only the second has. The first part with a name
+/// matches the first one, the second the second, and so on: a URDD may have several.
+pub fn matched<'a>(before: &[&'a str], after: &[&'a str]) -> Vec<Matched<'a>> {
+    let mut places: HashMap<&str, VecDeque<usize>> = HashMap::new();
+    for (index, name) in after.iter().enumerate() {
+        places.entry(name).or_default().push_back(index);
+    }
+    let mut taken = vec![false; after.len()];
+    let mut found = Vec::with_capacity(before.len());
+    for (index, name) in before.iter().enumerate() {
+        let other = places.get_mut(name).and_then(|places| places.pop_front());
+        if let Some(other) = other {
+            taken[other] = true;
+        }
+        found.push(Matched { name, before: Some(index), after: other });
+    }
+    let new = after.iter().enumerate().filter(|(index, _)| !taken[*index]);
+    found.extend(new.map(|(index, name)| Matched { name, before: None, after: Some(index) }));
+    found
+}
+
+pub fn differences(
+    before: &[(String, Fields)],
+    after: &[(String, Fields)],
+    tolerance: f64,
+) -> Vec<PartDifference> {
+    let a: Vec<&str> = before.iter().map(|(name, _)| name.as_str()).collect();
+    let b: Vec<&str> = after.iter().map(|(name, _)| name.as_str()).collect();
+    let mut found = Vec::new();
+    for part in matched(&a, &b) {
+        let (name, presence) = (part.name.to_owned(), part.presence());
+        let changes = part.both().map(|(i, j)| compare("", &before[i].1, &after[j].1, tolerance));
+        if changes.as_ref().is_none_or(|changes| !changes.is_empty()) {
+            found.push(PartDifference { name, presence, changes: changes.unwrap_or_default() });
+        }
+    }
+    found
 }

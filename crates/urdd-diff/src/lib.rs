@@ -2,38 +2,29 @@
 //!
 //! `urdd diff`: two robots compared by meaning. [`Side::open`] opens a URDF or a URDD, [`compare`] compares two.
 //!
-//! One file has one kind of difference. Each part (a link, a joint, a material) is first turned into a flat list of
-//! values with URDF's defaults filled in (`fields`), so that formatting, the order of attributes, and how a number is
-//! written make no difference.
+//! Each part (a link, a joint, a material) is first turned into a flat list of values with URDF's defaults filled in
+//! (`fields`), so that formatting, the order of attributes, and how a number is written make no difference.
 
-mod beside;
-mod dof_state;
-mod dofs;
+mod beyond_urdf;
 mod fields;
-mod findings;
-mod geometry;
-mod joints;
-mod links;
 mod loops;
 mod modules;
 mod open;
-mod other_elements;
 mod pairs;
 mod parts;
-mod poses;
 mod render;
 mod shapes;
 mod side;
-mod side_urdd;
 
 pub use render::{markdown, text};
 pub use side::{DiffError, Options, Side};
 
-use self::fields::Fields;
 use urdd_directory::range::{OutOfRange, Range};
 use urdd_format::diff_report::{DiffReport, PartDifference, ValueChange};
 use urdd_format::report::Tool;
 use urdd_xml::other_parts::Owner;
+
+use fields::Fields;
 
 /// The tolerance of numbers, each in its own unit.
 pub const TOLERANCE: Range = Range::real("tolerance", 0.0, f64::MAX, "");
@@ -46,7 +37,7 @@ pub const TOLERANCE: Range = Range::real("tolerance", 0.0, f64::MAX, "");
 pub fn compare(before: &Side, after: &Side, tolerance: f64) -> Result<DiffReport, OutOfRange> {
     TOLERANCE.check(tolerance)?;
     let parts = |parts: &dyn Fn(&Side) -> Vec<(String, Fields)>| -> Vec<PartDifference> {
-        parts::differences(&parts(before), &parts(after), tolerance)
+        fields::differences(&parts(before), &parts(after), tolerance)
     };
     let mut notes = notes(before, after);
     if tolerance > 0.0 {
@@ -56,39 +47,39 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> Result<DiffReport
     let loops = loops::Both::of(before, after);
     let said: &[&str] = if loops.say_independent { &[loops::OF_JOINT] } else { &[] };
     let [joints_a, joints_b] =
-        [(before, a), (after, b)].map(|(side, others)| joints::parts(side, others, said));
-    let joints = parts::differences(&joints_a, &joints_b, tolerance);
+        [(before, a), (after, b)].map(|(side, others)| parts::joints(side, others, said));
+    let joints = fields::differences(&joints_a, &joints_b, tolerance);
     if a.is_none() {
         notes.push(
             "attributes that URDF does not define are not compared: one has no URDF".to_owned(),
         );
     }
     let pairs = pairs::differences(before, after, &mut notes);
-    let beside = beside::differences(before, after, tolerance, &mut notes);
+    let beside = beyond_urdf::differences(before, after, tolerance, &mut notes);
     let mut report = DiffReport {
         tool: Tool::urdd(),
         before: before.summary(),
         after: after.summary(),
         same: false,
         robot: robot(before, after),
-        links: links::differences(before, after, tolerance),
+        links: parts::links(before, after, tolerance),
         loops: loops.differences(tolerance),
         joints,
-        materials: parts(&|side| geometry::materials(&side.robot.materials)),
+        materials: parts(&|side| parts::materials(&side.robot.materials)),
         other_elements: parts(&|side| {
-            let mut parts = other_elements::parts(&side.robot.unknown_elements, &side.account);
+            let mut parts = beyond_urdf::parts(&side.robot.unknown_elements, &side.account);
             parts.retain(|(label, _)| !loops.labels.contains(label));
             parts
         }),
-        poses: poses::difference(before, after, tolerance),
-        dofs: dofs::differences(before, after, tolerance),
+        poses: pairs::poses(before, after, tolerance),
+        dofs: loops::dofs(before, after, tolerance),
         pairs,
-        configurations: dofs::configurations(before, after, tolerance),
+        configurations: loops::configurations(before, after, tolerance),
         srdf: beside.srdf,
         setup: beside.setup,
         lost: beside.lost,
         modules: None,
-        findings: findings::differences(before, after),
+        findings: modules::findings(before, after),
         notes,
     };
     report.modules = modules::differences(before, after, &report, tolerance);
@@ -101,7 +92,7 @@ fn robot(before: &Side, after: &Side) -> Vec<ValueChange> {
     let others = before.others_beside(after);
     let fields = |side: &Side, others| {
         let mut fields = Fields::default();
-        other_elements::add_parts(others, &Owner::Robot, &mut fields);
+        beyond_urdf::add_parts(others, &Owner::Robot, &[], &mut fields);
         fields.text("name", Some(&side.robot.name));
         let version = side.robot.version.as_deref();
         // Without a version, a URDF is of 1.0 (SPEC 6.1.9).
@@ -130,10 +121,10 @@ fn notes(before: &Side, after: &Side) -> Vec<String> {
     notes
 }
 
-/// Notes on links and joints in another order. What an order of joints means, the indices of DOFs, is in `dofs`.
+/// Notes on links and joints in another order. What an order of joints means, the indices of DOFs, is in `loops`.
 fn orders(before: &Side, after: &Side) -> Vec<String> {
     let is_other = |a: Vec<&str>, b: Vec<&str>| {
-        let both = parts::matched(&a, &b).into_iter().filter_map(|part| part.both());
+        let both = fields::matched(&a, &b).into_iter().filter_map(|part| part.both());
         !both.map(|(_, j)| j).is_sorted()
     };
     let orders = [

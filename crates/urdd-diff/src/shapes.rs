@@ -16,14 +16,14 @@ use urdd_geometry::primitives::Primitive;
 use urdd_geometry::read::Scene;
 
 /// An element's place: link, kind, index among the link's elements of that kind.
-pub(super) type Place = (usize, GeometryKind, usize);
+pub type Place = (usize, GeometryKind, usize);
 
 /// Maximum number of vertices that are placed to find bounding boxes: a URDF may name one large mesh very often.
 const MAX_PLACED_VERTICES: usize = 50_000_000;
 
 /// The meshes and bounding boxes of a robot's elements.
 #[derive(Debug, Default)]
-pub(super) struct Shapes {
+pub struct Shapes {
     /// The triangles of each mesh element, or why they could not be read.
     pub meshes: HashMap<Place, Result<Triangles, String>>,
     bounds: HashMap<Place, Bounds>,
@@ -59,7 +59,7 @@ impl Shapes {
 
 /// Reads the shapes of a robot. `files` says for each mesh element which file it names, or why there is none; `read`
 /// reads a file. Each file is read once, one after the other.
-pub(super) fn shapes<File: Clone + Eq + std::hash::Hash>(
+pub fn shapes<File: Clone + Eq + std::hash::Hash>(
     robot: &Robot,
     files: Vec<(Place, Result<File, String>)>,
     read: impl Fn(&File) -> Result<Arc<Scene>, String>,
@@ -123,10 +123,7 @@ fn mesh_placement(robot: &Robot, place: Place) -> Option<Matrix4<f64>> {
 }
 
 /// The element at a place and its mesh; `None` if it has none.
-pub(super) fn mesh_at(
-    robot: &Robot,
-    (link, kind, index): Place,
-) -> Option<(&Element, &urdf::Mesh)> {
+pub fn mesh_at(robot: &Robot, (link, kind, index): Place) -> Option<(&Element, &urdf::Mesh)> {
     let element = robot.links.get(link)?.elements(kind).get(index)?;
     match &element.geometry {
         Some(Geometry::Mesh(mesh)) => Some((element, mesh)),
@@ -155,7 +152,7 @@ fn primitive(element: &Element) -> Option<Bounds> {
 
 /// The triangles of a mesh file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Triangles {
+pub struct Triangles {
     /// SHA-256 of the sorted triangles.
     pub fingerprint: String,
     pub count: usize,

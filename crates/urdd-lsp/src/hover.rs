@@ -4,18 +4,17 @@ use std::fs;
 
 use lsp_types::{Hover, Position};
 use nalgebra::Isometry3;
-
-use crate::document::{RobotModel, Snapshot};
-use crate::kind::FileKind;
-use crate::markup::Place;
-use crate::reference::{Names, reference};
-use crate::shown::{code, markdown, sentence};
-use crate::urdd_documents;
 use urdd_document::robot::Joint;
 use urdd_format::escape;
 use urdd_format::readable::number;
 use urdd_format::urdf::JointType;
 use urdd_geometry::Mesh;
+
+use crate::document::{FileKind, RobotModel, Snapshot};
+use crate::markup::Place;
+use crate::reference::{Names, reference};
+use crate::text::{code, markdown, sentence};
+use crate::urdd_documents;
 
 /// Significant digits of numbers.
 const DIGITS: usize = 5;

@@ -2,8 +2,7 @@
 
 use lsp_types::{DocumentSymbol, DocumentSymbolResponse, SymbolInformation, SymbolKind};
 
-use crate::document::Snapshot;
-use crate::kind::FileKind;
+use crate::document::{FileKind, Snapshot};
 use crate::outline::Outline;
 
 /// The deepest level. What is below is listed beside it: editors read nested data by recursion.

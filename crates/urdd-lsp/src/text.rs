@@ -1,10 +1,14 @@
-//! A document's text, and positions in it as editors count them.
+//! A document's text, positions in it as editors count them, and texts that editors show.
 
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use lsp_types::{Position, PositionEncodingKind, TextDocumentContentChangeEvent};
+use lsp_types::{
+    Hover, HoverContents, MarkupContent, MarkupKind, Position, PositionEncodingKind, Range,
+    TextDocumentContentChangeEvent,
+};
 use serde_json::Value;
+use urdd_format::escape;
 
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
@@ -237,4 +241,29 @@ fn line_starts(text: &str, from: usize) -> impl Iterator<Item = usize> {
 
 fn count(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
+}
+
+pub fn markdown(value: String, range: Option<Range>) -> Hover {
+    Hover {
+        contents: HoverContents::Markup(MarkupContent { kind: MarkupKind::Markdown, value }),
+        range,
+    }
+}
+
+/// A sentence that may quote a file: nothing in it begins anything of Markdown.
+pub fn sentence(text: &str) -> String {
+    let mut shown = String::new();
+    for c in escape::line(text).chars() {
+        if "\\`*_[]<>&|~#".contains(c) {
+            shown.push('\\');
+        }
+        shown.push(c);
+    }
+    shown
+}
+
+/// A name as code: no name ends it, or begins something else.
+pub fn code(name: &str) -> String {
+    let name = escape::line(name).replace('`', "'");
+    format!("`{name}`")
 }

@@ -5,21 +5,18 @@ use std::ops::Range;
 
 use lsp_types::{Diagnostic, DiagnosticSeverity, Hover, Position};
 use serde_json::Value;
-
-use crate::diagnostics::diagnostic;
-use crate::document::Snapshot;
-use crate::kind::Schema;
-use crate::shown::markdown;
-use urdd_directory::json;
 use urdd_directory::json_scan::pointer_at;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::position;
-use urdd_directory::regular;
 use urdd_directory::text_fault::{TextFault, TextFaultKind, TextFaults};
 use urdd_directory::yaml::{self as mirror, places};
+use urdd_directory::{json, position, regular};
 use urdd_document::schema_check::SchemaViolation;
 use urdd_format::annotations;
 use urdd_format::schema::Variant;
+
+use crate::diagnostics::diagnostic;
+use crate::document::{Schema, Snapshot};
+use crate::text::markdown;
 
 /// How many references to other parts of the schema are followed.
 const MOST_REFERENCES: usize = 20;

@@ -1,10 +1,14 @@
-//! What a program does because of something in a file.
+//! What a program does because of something in a file, the part of the robot that it does it to, and what materials look like.
+
+use std::fmt::Display;
+use std::ops::Deref;
+use std::sync::Arc;
 
 pub use urdd_format::report::Deed;
 use urdd_format::short;
 
 use crate::fault::{Fault, NO_SHAPE};
-use crate::part::Part;
+use crate::number::{pieces, strtod, whole};
 use crate::tree::{Attribute, Node, Parsed, Tree};
 
 /// What a program does, and why.
@@ -27,10 +31,10 @@ pub struct Effect {
 pub struct Effects(pub Vec<Effect>);
 
 /// The file is refused: reading ends.
-pub(crate) struct Refused;
+pub struct Refused;
 
 /// What a reader's functions give: nothing more where the program stops.
-pub(crate) type Reading<T> = Result<T, Refused>;
+pub type Reading<T> = Result<T, Refused>;
 
 impl Effects {
     /// The worst that happens; none if all is read as it is written.
@@ -140,7 +144,7 @@ impl Effects {
 }
 
 /// Something with a place in the file.
-pub(crate) trait At {
+pub trait At {
     /// Its first byte.
     fn at(self) -> usize;
 }
@@ -161,4 +165,83 @@ impl At for &Attribute<'_> {
     fn at(self) -> usize {
         self.range.start
     }
+}
+
+/// A part of a robot, such as `joint/elbow/limit`; empty for the whole file. It is made of names, and a long name is
+/// shortened where it enters: a part is short, however many effects have it.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Default)]
+pub struct Part(Arc<str>);
+
+impl Part {
+    /// The part of a kind and name.
+    pub(crate) fn of(kind: &str, name: &str) -> Self {
+        Part(format!("{kind}/{}", short::name(name)).into())
+    }
+
+    pub(crate) fn inside(&self, what: impl Display) -> Self {
+        Part(format!("{}/{what}", self.0).into())
+    }
+
+    /// The visuals or collisions of a link whose part it is, and the part of each.
+    pub(crate) fn shapes<'t>(
+        &self,
+        link: Node<'t>,
+        kind: &'static str,
+    ) -> impl Iterator<Item = (Node<'t>, Part)> {
+        let part = move |(index, shape)| (shape, self.inside(format_args!("{kind}/{index}")));
+        link.named(kind).enumerate().map(part)
+    }
+}
+
+impl From<&'static str> for Part {
+    fn from(part: &'static str) -> Self {
+        Part(part.into())
+    }
+}
+
+impl From<&Part> for Part {
+    fn from(part: &Part) -> Self {
+        part.clone()
+    }
+}
+
+impl Deref for Part {
+    type Target = str;
+    fn deref(&self) -> &str {
+        &self.0
+    }
+}
+
+/// What a material has itself.
+pub struct Look {
+    rgba: String,
+    texture: String,
+}
+
+impl Look {
+    /// None where it has nothing: a visual's material is then the name of another.
+    pub fn of(material: Node<'_>) -> Option<Look> {
+        let of = |element: &str, name: &str| material.child(element)?.value(name);
+        let (rgba, texture) = (of("color", "rgba"), of("texture", "filename"));
+        let text = |value: Option<&str>| value.unwrap_or_default().to_owned();
+        rgba.or(texture).map(|_| Look { rgba: text(rgba), texture: text(texture) })
+    }
+
+    /// Says that a material is read as another one of its name, if that looks otherwise.
+    pub fn compare(read: Option<&Look>, material: Node<'_>, part: &Part, effects: &mut Effects) {
+        let (Some(read), Some(own)) = (read, Look::of(material)) else { return };
+        if read.texture != own.texture || !is_same(&read.rgba, &own.rgba) {
+            let name = material.value("name").unwrap_or_default();
+            let words = if read.rgba.is_empty() { &read.texture } else { &read.rgba };
+            effects.read_as(material, part, Fault::not_unique("material", name), &**words);
+        }
+    }
+}
+
+/// Whether nobody sees a difference of two colours: of half a step of 8 bits, as texts are rounded.
+pub fn is_same(one: &str, other: &str) -> bool {
+    const LEAST: f64 = 0.5 / 255.0;
+    let numbers = |text| pieces(text).map(|piece| whole(strtod(piece))).collect::<Option<Vec<_>>>();
+    let (Some(a), Some(b)) = (numbers(one), numbers(other)) else { return one == other };
+    a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= LEAST)
 }

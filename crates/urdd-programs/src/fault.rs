@@ -68,11 +68,10 @@ pub enum Fault {
 }
 
 /// A mesh in a format that a program does not know.
-pub(crate) const FORMAT: Fault =
-    Fault::ForOthers("the mesh is in a format that the program cannot read");
+pub const FORMAT: Fault = Fault::ForOthers("the mesh is in a format that the program cannot read");
 
 /// A COLLADA file that only lenient readers of XML read.
-pub(crate) const BEGINS_LATE: Fault =
+pub const BEGINS_LATE: Fault =
     Fault::Mesh("white space is before `<?xml` in the file of the mesh, where XML has none");
 
 /// A link without mass, which Gazebo leaves out.
@@ -83,33 +82,32 @@ pub const MASSLESS_WITH_OTHERS: Fault =
     Fault::Inertia("links without mass are left out, and others are fixed to them or below");
 
 /// A link without a shape is merged into the one above, and has joints below.
-pub(crate) const MERGED: Fault =
+pub const MERGED: Fault =
     Fault::Inertia("its inertia goes to the link above, and all below it is lost");
 
 /// A joint mimics one that the program does not have as a joint.
-pub(crate) const FOLLOWS_NONE: Fault =
-    Fault::Other("the joint that it follows is fixed, or left out");
+pub const FOLLOWS_NONE: Fault = Fault::Other("the joint that it follows is fixed, or left out");
 
 /// The shape of a visual or collision is missing.
-pub(crate) const NO_SHAPE: Fault = Fault::Other("`<geometry>` has no shape");
+pub const NO_SHAPE: Fault = Fault::Other("`<geometry>` has no shape");
 
-pub(crate) const CROSSED: Fault = Fault::Limits("`lower` is above `upper`");
-pub(crate) const NO_DYNAMICS: Fault = Fault::Other("`<dynamics>` has neither damping nor friction");
+pub const CROSSED: Fault = Fault::Limits("`lower` is above `upper`");
+pub const NO_DYNAMICS: Fault = Fault::Other("`<dynamics>` has neither damping nor friction");
 /// What a colour breaks.
-pub(crate) const COLOR_RULE: &str = "a colour is of numbers from 0 to 1";
-pub(crate) const MIMICS_ITSELF: Fault = Fault::Other("the joint mimics itself");
+pub const COLOR_RULE: &str = "a colour is of numbers from 0 to 1";
+pub const MIMICS_ITSELF: Fault = Fault::Other("the joint mimics itself");
 
-pub(crate) const NO_ROOT: Fault = Fault::Tree("no link is the root");
-pub(crate) const TWO_ROOTS: Fault = Fault::Tree("two links have no joint above them");
-pub(crate) const TWO_PARENTS: Fault = Fault::Tree("a link is the child of two joints");
-pub(crate) const UNREACHED: Fault = Fault::Tree("it is in a loop, which the root does not reach");
+pub const NO_ROOT: Fault = Fault::Tree("no link is the root");
+pub const TWO_ROOTS: Fault = Fault::Tree("two links have no joint above them");
+pub const TWO_PARENTS: Fault = Fault::Tree("a link is the child of two joints");
+pub const UNREACHED: Fault = Fault::Tree("it is in a loop, which the root does not reach");
 
 /// What a limit has since URDF 1.2.
-pub(crate) const FURTHER: &str = "acceleration deceleration jerk";
+pub const FURTHER: &str = "acceleration deceleration jerk";
 /// The numbers of an `<inertia>`.
-pub(crate) const MOMENTS: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
+pub const MOMENTS: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
 /// The types of joints that URDF has.
-pub(crate) const JOINT_TYPES: &[&str] =
+pub const JOINT_TYPES: &[&str] =
     &["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
 
 impl Fault {

@@ -8,19 +8,13 @@ mod drake;
 mod effect;
 mod fault;
 mod file;
-mod look;
 mod mesh;
 mod mujoco;
 mod number;
-mod part;
 mod pinocchio;
-mod prelude;
 mod program;
 mod pybullet;
-mod rapidxml;
 mod sdformat;
-mod space;
-mod strict;
 mod three;
 mod tinyxml;
 mod tinyxml1;
@@ -29,9 +23,23 @@ mod unknown;
 mod urdfdom;
 mod usd;
 
-pub use effect::{Deed, Effect, Effects};
+pub use effect::{Deed, Effect, Effects, Part};
 pub use fault::{Fault, MASSLESS, MASSLESS_WITH_OTHERS};
 pub use file::File;
-pub use mesh::{ColladaFacts, Format, Measures, Mesh, MeshFacts, ObjFacts, StlFacts};
-pub use part::Part;
+pub use mesh::formats::{ColladaFacts, Measures, ObjFacts, StlFacts};
+pub use mesh::{Format, Mesh, MeshFacts};
 pub use program::Program;
+
+/// Names that readers use.
+mod prelude {
+    pub use std::collections::{HashMap, HashSet};
+
+    pub use crate::effect::{At, Effects, Look, Part, Reading};
+    pub use crate::fault::*;
+    pub use crate::file::{About, File};
+    pub use crate::mesh::{Mesh, MeshFacts};
+    pub use crate::number::{is_space, istream, pieces, strtod, whole};
+    pub(crate) use crate::tinyxml;
+    pub use crate::tree::{Attribute, Node};
+    pub use crate::unknown::Names;
+}

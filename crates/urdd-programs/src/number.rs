@@ -1,15 +1,16 @@
-//! Numbers as the functions of C and C++ read them, in the C locale. Each gives the number and the text behind it.
+//! Numbers as the functions of C and C++ read them, in the C locale; each gives the number and the text behind it. Vectors, matrices
+//! and poses, for readers that compute inertias as their programs do.
 
 /// A number, and what follows it.
-pub(crate) type Read<'a> = Option<(f64, &'a str)>;
+pub type Read<'a> = Option<(f64, &'a str)>;
 
 /// As `isspace` of C has it.
-pub(crate) fn is_space(character: char) -> bool {
+pub fn is_space(character: char) -> bool {
     matches!(character, ' ' | '\t'..='\r')
 }
 
 /// `strtod`: white space, a sign, then a decimal or hexadecimal number, `inf` or `nan`. None if nothing is read.
-pub(crate) fn strtod(text: &str) -> Read<'_> {
+pub fn strtod(text: &str) -> Read<'_> {
     let (sign, unsigned) = signed(text.trim_start_matches(is_space));
     let (number, rest) =
         hexadecimal(unsigned).or_else(|| word(unsigned)).or_else(|| decimal(unsigned))?;
@@ -18,7 +19,7 @@ pub(crate) fn strtod(text: &str) -> Read<'_> {
 
 /// `istream >> double` of libstdc++: white space, a sign and a decimal number. None also if the number is too large, or
 /// ends with `e`.
-pub(crate) fn istream(text: &str) -> Read<'_> {
+pub fn istream(text: &str) -> Read<'_> {
     let (sign, unsigned) = signed(text.trim_start_matches(is_space));
     let (number, rest) = decimal(unsigned).filter(|(number, _)| number.is_finite())?;
     let read = &unsigned[..unsigned.len() - rest.len()];
@@ -27,12 +28,12 @@ pub(crate) fn istream(text: &str) -> Read<'_> {
 }
 
 /// Whether a text is a number and nothing else, by one of the functions above.
-pub(crate) fn whole(read: Read<'_>) -> Option<f64> {
+pub fn whole(read: Read<'_>) -> Option<f64> {
     read.filter(|(_, rest)| rest.is_empty()).map(|(number, _)| number)
 }
 
 /// What is between spaces, and no other white space.
-pub(crate) fn pieces(text: &str) -> impl Iterator<Item = &str> {
+pub fn pieces(text: &str) -> impl Iterator<Item = &str> {
     text.split(' ').filter(|piece| !piece.is_empty())
 }
 
@@ -111,7 +112,7 @@ fn hexadecimal(text: &str) -> Read<'_> {
 }
 
 /// `float()` of Python: any white space around, `_` between digits, digits of any script.
-pub(crate) fn python(text: &str) -> Option<f64> {
+pub fn python(text: &str) -> Option<f64> {
     let text = text.trim();
     let mut plain = String::with_capacity(text.len());
     let mut rest = text.chars().map(digit).peekable();
@@ -137,7 +138,7 @@ fn digit(character: char) -> char {
 }
 
 /// `parseFloat()` of `JavaScript`: the longest beginning that is a number, behind any white space; NaN if there is none.
-pub(crate) fn parse_float(text: &str) -> f64 {
+pub fn parse_float(text: &str) -> f64 {
     let is_space = |character: char| {
         character == '\u{feff}' || (character.is_whitespace() && character != '\u{85}')
     };
@@ -147,4 +148,88 @@ pub(crate) fn parse_float(text: &str) -> f64 {
         None if unsigned.starts_with("Infinity") => sign * f64::INFINITY,
         None => f64::NAN,
     }
+}
+
+pub type Vector = [f64; 3];
+pub type Matrix = [[f64; 3]; 3];
+
+/// A place and a turn.
+#[derive(Clone, Copy)]
+pub struct Pose {
+    pub xyz: Vector,
+    pub turn: Matrix,
+}
+
+impl Default for Pose {
+    fn default() -> Pose {
+        Pose { xyz: [0.0; 3], turn: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] }
+    }
+}
+
+impl Pose {
+    /// Of an `<origin>`. Angles that are not finite are 0.
+    pub fn new(xyz: Vector, rpy: Vector) -> Pose {
+        let [(sr, cr), (sp, cp), (sy, cy)] =
+            rpy.map(|angle| if angle.is_finite() { angle.sin_cos() } else { (0.0, 1.0) });
+        let turn = [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ];
+        Pose { xyz, turn }
+    }
+
+    /// The pose of something that has a pose in this one.
+    pub fn then(&self, inner: &Pose) -> Pose {
+        Pose { xyz: self.place(inner.xyz), turn: product(&self.turn, &inner.turn) }
+    }
+
+    pub fn place(&self, point: Vector) -> Vector {
+        [0, 1, 2].map(|row| self.xyz[row] + dot(self.turn[row], point))
+    }
+}
+
+/// A tensor about other axes.
+pub fn turned(tensor: &Matrix, turn: &Matrix) -> Matrix {
+    product(&product(turn, tensor), &transposed(turn))
+}
+
+/// The tensor of a mass about its centre, about another point.
+pub fn moved(tensor: &Matrix, mass: f64, centre: Vector, point: Vector) -> Matrix {
+    let arm = less(centre, point);
+    let mut moved = *tensor;
+    for row in 0..3 {
+        for column in 0..3 {
+            let square = if row == column { dot(arm, arm) } else { 0.0 };
+            moved[row][column] += mass * (square - arm[row] * arm[column]);
+        }
+    }
+    moved
+}
+
+/// The centre of two masses together.
+pub fn centre(masses: [f64; 2], centres: [Vector; 2]) -> Vector {
+    let sum = masses[0] + masses[1];
+    [0, 1, 2].map(|axis| (masses[0] * centres[0][axis] + masses[1] * centres[1][axis]) / sum)
+}
+
+pub fn sum(a: &Matrix, b: &Matrix) -> Matrix {
+    [0, 1, 2].map(|row| [0, 1, 2].map(|column| a[row][column] + b[row][column]))
+}
+
+pub fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    let b = transposed(b);
+    a.map(|row| b.map(|column| dot(row, column)))
+}
+
+pub fn transposed(a: &Matrix) -> Matrix {
+    [0, 1, 2].map(|column| a.map(|row| row[column]))
+}
+
+pub fn less(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -2,10 +2,10 @@
 //! the model from what urdfdom has, and reads the file by a second parser for its geometry.
 
 use crate::prelude::*;
-use crate::rapidxml;
-use crate::urdfdom::{self, Joint, Link, Model, Release};
+use crate::urdfdom::{Joint, Link, Model, Release};
+use crate::{tinyxml, urdfdom};
 
-pub(crate) const ABOUT: About = About {
+pub const ABOUT: About = About {
     id: "pinocchio",
     name: "Pinocchio",
     family: "Pinocchio",
@@ -17,12 +17,12 @@ pub(crate) const ABOUT: About = About {
     read,
 };
 
-pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
+pub fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = urdfdom::parse(file, effects)?;
     let model = urdfdom::model(tree, Release::Six, effects)?;
     let mut reader = PinocchioReader { file, effects };
     let is_reached = reader.model(&model)?;
-    effects.parsed(rapidxml::check(file.counted))?;
+    effects.parsed(tinyxml::check_by_rapidxml(file.counted))?;
     if let Some(link) = model.robot.named("link").find(|link| link.attribute("name").is_none()) {
         return effects.refuse(link, Fault::Missing("name"));
     }

@@ -8,7 +8,7 @@ use urdd_xml::{Counted, tally};
 use crate::number::is_space;
 use crate::tree::{Attribute, Element, Malformed, Parsed, Tree, repeated};
 
-pub(crate) fn parse(file: Counted<'_>) -> Parsed<Tree<'_>> {
+pub fn parse(file: Counted<'_>) -> Parsed<Tree<'_>> {
     tally::count("TinyXML");
     let bytes = file.bytes();
     let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());

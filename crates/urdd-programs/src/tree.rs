@@ -3,16 +3,16 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-pub(crate) use urdd_xml::tinyxml2::{Attribute, Malformed, repeated};
+pub use urdd_xml::tinyxml2::{Attribute, Malformed, repeated};
 
-pub(crate) type Parsed<T> = Result<T, Malformed>;
+pub type Parsed<T> = Result<T, Malformed>;
 
 /// Why a text is refused that a program makes of a file within the limits, if it is beyond them.
-pub(crate) const BEYOND: &str = "the program's own form of the file is beyond the limits of XML";
+pub const BEYOND: &str = "the program's own form of the file is beyond the limits of XML";
 
 /// A document.
 #[derive(Default)]
-pub(crate) struct Tree<'a> {
+pub struct Tree<'a> {
     pub elements: Vec<Element<'a>>,
     /// The elements that are in no other; one in a document that is well-formed.
     pub tops: Vec<usize>,
@@ -21,7 +21,7 @@ pub(crate) struct Tree<'a> {
 }
 
 /// An element.
-pub(crate) struct Element<'a> {
+pub struct Element<'a> {
     /// With its prefix, if the parser knows no namespaces.
     pub name: Cow<'a, str>,
     pub attributes: Vec<Attribute<'a>>,
@@ -41,7 +41,7 @@ impl<'a> Element<'a> {
 
 /// An element of a tree.
 #[derive(Clone, Copy)]
-pub(crate) struct Node<'t> {
+pub struct Node<'t> {
     tree: &'t Tree<'t>,
     pub index: usize,
 }

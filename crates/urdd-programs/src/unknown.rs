@@ -4,12 +4,12 @@
 use std::cell::LazyCell;
 use std::collections::HashSet;
 
-use crate::effect::{At, Effects};
+use urdd_xml::vocabulary::{KNOWN, Known, of};
+
+use crate::effect::{At, Effects, Part};
 use crate::fault::Fault;
-use crate::part::Part;
 use crate::tinyxml::{Document, MOST_DEPTH};
 use crate::tree::Node;
-use urdd_xml::vocabulary::{KNOWN, Known, of};
 
 /// Elements of programs and tools, with all that is in them; some stand where URDF has other elements, or look like them.
 const EXTENSIONS: &str = "transmission gazebo sensor ros2_control mujoco bullet contact frame frames verbose \
@@ -28,7 +28,7 @@ const VERSIONS: [&str; 3] = ["1.0", "1.1", "1.2"];
 
 /// Which names a program takes for those of elements.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Names {
+pub enum Names {
     /// As they are written.
     Exact,
     /// As they are written, in the namespace that an `xmlns` gives them.
@@ -38,7 +38,7 @@ pub(crate) enum Names {
 }
 
 /// Something that a program ignores if it would read what is meant.
-pub(crate) struct Found {
+pub struct Found {
     at: usize,
     part: Part,
     fault: Fault,
@@ -57,7 +57,7 @@ impl Found {
 }
 
 /// What programs ignore that take such names for those of elements.
-pub(crate) fn find(document: &Document, names: Names) -> Vec<Found> {
+pub fn find(document: &Document, names: Names) -> Vec<Found> {
     let Ok(tree) = document.within(MOST_DEPTH) else { return Vec::new() };
     let mut finder = Finder { names, inside: Vec::new(), found: Vec::new() };
     let mut robots = tree.tops().filter(|top| top.name() == "robot");

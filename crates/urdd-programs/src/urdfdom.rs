@@ -1,8 +1,7 @@
 //! urdfdom 6.0.0 and 4.0.1, with which all of ROS and Pinocchio read URDF. A fault in a joint refuses the file; a fault
 //! in a link loses that part of the link and all that is read after it.
 
-mod joints;
-mod links;
+mod parts;
 
 use std::collections::BTreeMap;
 
@@ -11,7 +10,7 @@ use crate::tinyxml1;
 use crate::tree::Tree;
 
 /// ROS lyrical and rolling.
-pub(crate) const SIX: About = About {
+pub const SIX: About = About {
     id: "urdfdom6",
     name: "ROS (urdfdom 6)",
     family: "ROS",
@@ -24,7 +23,7 @@ pub(crate) const SIX: About = About {
 };
 
 /// ROS jazzy and kilted.
-pub(crate) const FOUR: About = About {
+pub const FOUR: About = About {
     id: "urdfdom4",
     name: "ROS jazzy (urdfdom 4)",
     version: "4.0.1",
@@ -34,7 +33,7 @@ pub(crate) const FOUR: About = About {
 };
 
 /// ROS noetic, humble and iron. 3.0.1 reads as 4.0.1 does, but for the parser of its XML.
-pub(crate) const THREE: About = About {
+pub const THREE: About = About {
     id: "urdfdom3",
     name: "ROS humble (urdfdom 3)",
     version: "3.0.1",
@@ -50,38 +49,38 @@ const NO_COLOR: &str = "the material has no colour and no texture";
 
 /// Which urdfdom.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Release {
+pub enum Release {
     /// 4.0.1: URDF 1.0.
     Four,
     /// 6.0.0: URDF 1.0 to 1.2.
     Six,
 }
 
-pub(crate) struct Link<'t> {
+pub struct Link<'t> {
     pub node: Node<'t>,
     /// How many visuals and collisions it reads, and whether these are all.
     pub kept: [(usize, bool); 2],
 }
 
-pub(crate) struct Joint<'t> {
+pub struct Joint<'t> {
     pub node: Node<'t>,
     pub kind: &'t str,
     pub parent: &'t str,
     pub child: &'t str,
 }
 
-pub(crate) struct Model<'t> {
+pub struct Model<'t> {
     pub robot: Node<'t>,
     pub links: BTreeMap<&'t str, Link<'t>>,
     /// In the order of their names.
     pub joints: BTreeMap<&'t str, Joint<'t>>,
 }
 
-pub(crate) fn parse<'f>(file: &'f File<'_>, effects: &mut Effects) -> Reading<&'f Tree<'f>> {
+pub fn parse<'f>(file: &'f File<'_>, effects: &mut Effects) -> Reading<&'f Tree<'f>> {
     effects.parsed(file.document.within(tinyxml::MAX_DEPTH))
 }
 
-pub(crate) fn model<'t>(
+pub fn model<'t>(
     tree: &'t Tree<'t>,
     release: Release,
     effects: &mut Effects,

@@ -1,29 +1,36 @@
-//! Opens, changes, saves and closes documents; computes their findings in other threads, and shows them.
+//! Opens, changes, saves and closes documents; computes their findings and answers requests in other threads.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use lsp_server::Notification;
+use lsp_server::{ErrorCode, Notification, Request, RequestId, Response, ResponseError};
 use lsp_types::{
-    Diagnostic, DiagnosticSeverity, DidChangeTextDocumentParams, DidCloseTextDocumentParams,
-    DidOpenTextDocumentParams, DidSaveTextDocumentParams, PublishDiagnosticsParams, Uri,
+    CodeActionParams, CompletionParams, Diagnostic, DiagnosticSeverity,
+    DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
+    DidSaveTextDocumentParams, DocumentSymbolParams, GotoDefinitionParams, HoverParams,
+    PublishDiagnosticsParams, Uri,
 };
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
-
-use super::state::{Document, Event, Server};
-use crate::analysis::{Analysis, Depth};
-use crate::diagnostics::{Found, at_the_top};
-use crate::document::Snapshot;
-use crate::kind::FileKind;
-use crate::text::Text;
 use urdd_directory::cancellation::Cancellation;
+
+use crate::analysis::{Analysis, Depth};
+use crate::completion::completion;
+use crate::diagnostics::{Found, at_the_top, code_actions};
+use crate::document::{FileKind, Snapshot};
+use crate::hover::hover;
+use crate::reference::definition;
+use crate::server::state::{Document, Event, Server};
+use crate::symbols::symbols;
+use crate::text::Text;
 
 /// Maximum number of findings that are shown of a document.
 const MOST_SHOWN: usize = 1000;
 
 impl Server {
-    pub(super) fn open(&mut self, params: DidOpenTextDocumentParams) {
+    pub fn open(&mut self, params: DidOpenTextDocumentParams) {
         let item = params.text_document;
         let uri = item.uri.as_str().to_owned();
         let text = Text::new(item.text, self.client.encoding);
@@ -43,7 +50,7 @@ impl Server {
         self.start_all(&uri);
     }
 
-    pub(super) fn change(&mut self, params: DidChangeTextDocumentParams) {
+    pub fn change(&mut self, params: DidChangeTextDocumentParams) {
         let uri = params.text_document.uri.as_str();
         let due = Instant::now() + self.options.debounce;
         let Some(document) = self.documents.get_mut(uri) else {
@@ -60,7 +67,7 @@ impl Server {
         document.replace(next, due);
     }
 
-    pub(super) fn save(&mut self, params: DidSaveTextDocumentParams) {
+    pub fn save(&mut self, params: DidSaveTextDocumentParams) {
         let uri = params.text_document.uri.as_str().to_owned();
         if let Some(document) = self.documents.get_mut(&uri) {
             let is_due = document.due.take().is_some();
@@ -71,7 +78,7 @@ impl Server {
         }
     }
 
-    pub(super) fn close(&mut self, params: DidCloseTextDocumentParams) {
+    pub fn close(&mut self, params: DidCloseTextDocumentParams) {
         let uri = params.text_document.uri;
         if let Some(document) = self.documents.remove(uri.as_str()) {
             document.cancellation.cancel();
@@ -80,7 +87,7 @@ impl Server {
     }
 
     /// Takes over what the user sets. Everything is examined anew.
-    pub(super) fn configure(&mut self, value: &Value) {
+    pub fn configure(&mut self, value: &Value) {
         let before = self.options.clone();
         self.options.update(value, self.root.as_deref());
         if self.options == before {
@@ -109,12 +116,12 @@ impl Server {
     }
 
     /// How long until the findings of a document are to be computed.
-    pub(super) fn until_due(&self) -> Option<Duration> {
+    pub fn until_due(&self) -> Option<Duration> {
         let due = self.documents.values().filter_map(|document| document.due);
         due.min().map(|due| due.saturating_duration_since(Instant::now()))
     }
 
-    pub(super) fn start_due(&mut self) {
+    pub fn start_due(&mut self) {
         let now = Instant::now();
         let is_due =
             |(_, document): &(_, &mut Document)| document.due.is_some_and(|due| due <= now);
@@ -128,7 +135,7 @@ impl Server {
     }
 
     /// Computes findings of the current version.
-    pub(super) fn start(&mut self, uri: &str, depth: Depth) {
+    pub fn start(&mut self, uri: &str, depth: Depth) {
         let Some(document) = self.documents.get_mut(uri) else {
             return;
         };
@@ -167,7 +174,7 @@ impl Server {
     }
 
     /// Takes over findings, and shows them if they are of the current version.
-    pub(super) fn analysed(&mut self, snapshot: &Arc<Snapshot>, depth: Depth, analysis: Analysis) {
+    pub fn analysed(&mut self, snapshot: &Arc<Snapshot>, depth: Depth, analysis: Analysis) {
         let Some(document) = self.documents.get_mut(snapshot.uri.as_str()) else {
             return;
         };
@@ -182,7 +189,7 @@ impl Server {
         self.publish(snapshot.uri.clone(), Some(snapshot.version), found);
     }
 
-    pub(super) fn publish(&self, uri: Uri, version: Option<i32>, found: Vec<Found>) {
+    pub fn publish(&self, uri: Uri, version: Option<i32>, found: Vec<Found>) {
         let all = found.len();
         let found = found.into_iter().map(|found| found.diagnostic);
         let mut diagnostics: Vec<Diagnostic> = found.take(MOST_SHOWN).collect();
@@ -198,4 +205,119 @@ impl Server {
         let method = "textDocument/publishDiagnostics".to_owned();
         self.send(Notification::new(method, params));
     }
+}
+
+impl Server {
+    pub fn request(&mut self, request: Request) {
+        let Request { id, method, params } = request;
+        if self.is_shut_down {
+            let message = "the server was asked to shut down".to_owned();
+            return self.refuse(id, ErrorCode::InvalidRequest, message);
+        }
+        let client = self.client;
+        match method.as_str() {
+            "shutdown" => {
+                self.is_shut_down = true;
+                self.send(Response::new_ok(id, Value::Null));
+            }
+            "textDocument/hover" => self.hover(id, params),
+            "textDocument/definition" => {
+                self.answer(id, params, |snapshot, params: GotoDefinitionParams| {
+                    definition(snapshot, params.text_document_position_params.position)
+                });
+            }
+            "textDocument/completion" => {
+                self.answer(id, params, |snapshot, params: CompletionParams| {
+                    completion(snapshot, params.text_document_position.position)
+                });
+            }
+            "textDocument/documentSymbol" => {
+                self.answer(id, params, move |snapshot, _: DocumentSymbolParams| {
+                    symbols(snapshot, client.nested_symbols)
+                });
+            }
+            "textDocument/codeAction" => self.code_actions(id, params),
+            _ => {
+                self.refuse(id, ErrorCode::MethodNotFound, format!("there is no method {method}"));
+            }
+        }
+    }
+
+    fn hover(&mut self, id: RequestId, params: Value) {
+        let document = uri_of(&params).and_then(|uri| self.documents.get(uri));
+        let known = document.and_then(Document::analysis);
+        let known = known.map(|analysis| analysis.programs.clone());
+        self.answer(id, params, move |snapshot, params: HoverParams| {
+            let programs = || known.unwrap_or_else(|| now(snapshot).programs);
+            hover(snapshot, params.text_document_position_params.position, programs)
+        });
+    }
+
+    fn code_actions(&mut self, id: RequestId, params: Value) {
+        let client = self.client;
+        let uri = uri_of(&params).unwrap_or_default().to_owned();
+        let document = self.documents.get(&uri);
+        let known = document.filter(|one| one.of_text.is_some()).map(Document::findings);
+        self.answer(id, params, move |snapshot, params: CodeActionParams| {
+            // Before the findings of the newest text are there, as where an editor fixes on save.
+            let found = known.unwrap_or_else(|| now(snapshot).found);
+            code_actions(snapshot, &found, &params, client.versioned_edits)
+        });
+    }
+
+    /// Answers a request about a document in another thread; with null if the document is not open.
+    fn answer<P: DeserializeOwned + Send + 'static, R: Serialize>(
+        &mut self,
+        id: RequestId,
+        params: Value,
+        compute: impl FnOnce(&Snapshot, P) -> R + Send + 'static,
+    ) {
+        let document = uri_of(&params).and_then(|uri| self.documents.get(uri));
+        let snapshot = document.map(|document| Arc::clone(&document.snapshot));
+        let params: P = match serde_json::from_value(params) {
+            Ok(params) => params,
+            Err(error) => return self.refuse(id, ErrorCode::InvalidParams, error.to_string()),
+        };
+        let Some(snapshot) = snapshot else {
+            return self.send(Response::new_ok(id, Value::Null));
+        };
+        self.pending.insert(id.clone());
+        let events = self.events.clone();
+        self.answers.add(move || {
+            let computed = catch_unwind(AssertUnwindSafe(|| compute(&snapshot, params)));
+            let answer = match computed.map(serde_json::to_value) {
+                Ok(Ok(value)) => Ok(value),
+                Ok(Err(error)) => Err(failure(error.to_string())),
+                Err(_) => {
+                    let message = "urdd crashed on this request; this is a bug, please report it";
+                    Err(failure(message.to_owned()))
+                }
+            };
+            let _ = events.send(Event::Answered(id, answer));
+        });
+    }
+
+    /// Answers at once that a request was cancelled. What is computed for it is dropped.
+    pub fn cancel(&mut self, id: RequestId) {
+        if self.pending.remove(&id) {
+            self.refuse(id, ErrorCode::RequestCanceled, "cancelled by the editor".to_owned());
+        }
+    }
+
+    fn refuse(&self, id: RequestId, code: ErrorCode, message: String) {
+        self.send(Response::new_err(id, code as i32, message));
+    }
+}
+
+/// The analysis of a text whose own is not there yet.
+fn now(snapshot: &Snapshot) -> Analysis {
+    Analysis::new(snapshot, Depth::Text, &Cancellation::default()).unwrap_or_default()
+}
+
+fn failure(message: String) -> ResponseError {
+    ResponseError { code: ErrorCode::InternalError as i32, message, data: None }
+}
+
+fn uri_of(params: &Value) -> Option<&str> {
+    params["textDocument"]["uri"].as_str()
 }

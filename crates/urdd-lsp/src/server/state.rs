@@ -1,22 +1,29 @@
-//! What the server knows: the editor's process, the open documents, and what threads have computed.
+//! What the server knows: what it and the editor can do, the editor's process, the open documents, and what threads have computed.
 
 use std::collections::{HashMap, HashSet};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::thread;
 use std::time::Instant;
 
-use crossbeam_channel::Sender;
+use crossbeam_channel::{Sender, unbounded};
 use lsp_server::{Message, Notification, RequestId, ResponseError};
+use lsp_types::{
+    CodeActionKind, CodeActionOptions, CompletionOptions, HoverProviderCapability,
+    InitializeResult, OneOf, SaveOptions, ServerCapabilities, ServerInfo,
+    TextDocumentSyncCapability, TextDocumentSyncKind, TextDocumentSyncOptions,
+    TextDocumentSyncSaveOptions,
+};
 use serde_json::{Value, json};
-
-use crate::analysis::{Analysis, Depth};
-use crate::capabilities::Client;
-use crate::diagnostics::Found;
-use crate::document::Snapshot;
-use crate::kept::kept;
-use crate::options::Options;
-use crate::pool::Pool;
 use urdd_directory::cancellation::Cancellation;
+use urdd_format::registry::PROGRAM_VERSION;
+
+use crate::analysis::{Analysis, Depth, kept};
+use crate::diagnostics::{FIX_ALL, Found};
+use crate::document::Snapshot;
+use crate::options::Options;
+use crate::text::Encoding;
 
 /// How serving ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -151,3 +158,103 @@ impl Server {
         self.send(Notification::new("window/logMessage".to_owned(), params));
     }
 }
+
+/// What the editor can do.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Client {
+    /// The unit of its columns.
+    pub encoding: Encoding,
+    /// Whether it shows outlines as trees.
+    pub nested_symbols: bool,
+    /// Whether it shows places related to a diagnostic.
+    pub related_places: bool,
+    /// Whether it takes edits of a version of a document.
+    pub versioned_edits: bool,
+    /// Whether it takes code actions, not only commands.
+    pub code_actions: bool,
+    /// Whether it answers what the user has set.
+    pub configuration: bool,
+}
+
+impl Client {
+    /// What an editor says of itself in the `capabilities` of its first message.
+    pub fn new(capabilities: &Value) -> Self {
+        let at = |pointer: &str| capabilities.pointer(pointer);
+        let has = |pointer: &str| at(pointer).and_then(Value::as_bool).unwrap_or_default();
+        Client {
+            encoding: Encoding::choose(at("/general/positionEncodings")),
+            nested_symbols: has("/textDocument/documentSymbol/hierarchicalDocumentSymbolSupport"),
+            related_places: has("/textDocument/publishDiagnostics/relatedInformation"),
+            versioned_edits: has("/workspace/workspaceEdit/documentChanges"),
+            code_actions: at("/textDocument/codeAction/codeActionLiteralSupport")
+                .is_some_and(Value::is_object),
+            configuration: has("/workspace/configuration"),
+        }
+    }
+}
+
+/// The answer to an editor's first message.
+pub fn initialize_result(client: &Client) -> InitializeResult {
+    let sync = TextDocumentSyncOptions {
+        open_close: Some(true),
+        change: Some(TextDocumentSyncKind::INCREMENTAL),
+        save: Some(TextDocumentSyncSaveOptions::SaveOptions(SaveOptions {
+            include_text: Some(false),
+        })),
+        ..TextDocumentSyncOptions::default()
+    };
+    let completion = CompletionOptions {
+        trigger_characters: Some(["<", "/", "\"", "'", " "].map(str::to_owned).to_vec()),
+        ..CompletionOptions::default()
+    };
+    let actions = CodeActionOptions {
+        code_action_kinds: Some(vec![CodeActionKind::QUICKFIX, FIX_ALL]),
+        ..CodeActionOptions::default()
+    };
+    InitializeResult {
+        capabilities: ServerCapabilities {
+            position_encoding: Some(client.encoding.kind()),
+            text_document_sync: Some(TextDocumentSyncCapability::Options(sync)),
+            hover_provider: Some(HoverProviderCapability::Simple(true)),
+            completion_provider: Some(completion),
+            definition_provider: Some(OneOf::Left(true)),
+            document_symbol_provider: Some(OneOf::Left(true)),
+            code_action_provider: client.code_actions.then(|| actions.into()),
+            ..ServerCapabilities::default()
+        },
+        server_info: Some(ServerInfo {
+            name: "urdd".to_owned(),
+            version: Some(PROGRAM_VERSION.to_owned()),
+        }),
+    }
+}
+
+type Job = Box<dyn FnOnce() + Send>;
+
+/// Threads that work through jobs in order. They end when the pool is dropped and the jobs are done.
+pub struct Pool(Sender<Job>);
+
+impl Pool {
+    pub fn new(name: &str, threads: usize) -> Self {
+        let (sender, receiver) = unbounded::<Job>();
+        for _ in 0..threads {
+            let receiver = receiver.clone();
+            let builder = thread::Builder::new().name(format!("urdd {name}"));
+            // Without a thread, its jobs are done by the others, or not at all: the editor still has the rest.
+            let _ = builder.stack_size(STACK_BYTES).spawn(move || {
+                for job in receiver {
+                    // A job says itself that it panicked.
+                    let _ = catch_unwind(AssertUnwindSafe(job));
+                }
+            });
+        }
+        Pool(sender)
+    }
+
+    pub fn add(&self, job: impl FnOnce() + Send + 'static) {
+        let _ = self.0.send(Box::new(job));
+    }
+}
+
+/// As for the main thread: rules read XML and schemas by recursion.
+const STACK_BYTES: usize = 8 << 20;

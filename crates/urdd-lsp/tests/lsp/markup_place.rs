@@ -1,7 +1,6 @@
 //! What is at an offset.
 
-use urdd_lsp::markup::place::*;
-use urdd_lsp::markup::tree::Markup;
+use urdd_lsp::markup::*;
 
 fn at(text: &str) -> (Place, String) {
     let offset = text.find('|').unwrap();

@@ -23,7 +23,7 @@ struct Model<'l, 't> {
 }
 
 impl DrakeReader<'_> {
-    pub(super) fn joints<'t>(&mut self, robot: Node<'t>, links: &Links<'t>) -> Reading<()> {
+    pub fn joints<'t>(&mut self, robot: Node<'t>, links: &Links<'t>) -> Reading<()> {
         let mut model = Model {
             links,
             joints: HashMap::new(),
@@ -238,7 +238,7 @@ impl DrakeReader<'_> {
         }
     }
 
-    pub(super) fn negative<T>(&mut self, value: &Attribute<'_>) -> Reading<T> {
+    pub fn negative<T>(&mut self, value: &Attribute<'_>) -> Reading<T> {
         self.effects.refuse(value, Fault::range(value, "must not be negative"))
     }
 

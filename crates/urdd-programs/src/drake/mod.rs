@@ -1,13 +1,12 @@
 //! Drake 1.51.1: `Parser.AddModels` into a plant with a scene graph, and `Finalize`. It reads as many numbers as a text
 //! begins with, refuses every mesh that it does not find, and has collisions of few formats of meshes.
 
-mod forces;
 mod joints;
-mod shapes;
+mod parts;
 
 use crate::prelude::*;
 
-pub(crate) const ABOUT: About = About {
+pub const ABOUT: About = About {
     id: "drake",
     name: "Drake",
     family: "Drake",
@@ -22,7 +21,7 @@ pub(crate) const ABOUT: About = About {
 /// The link that is Drake's own.
 const WORLD: &str = "world";
 
-pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
+pub fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = effects.parsed(file.document.within(tinyxml::MAX_DEPTH))?;
     let robot = effects.robot(tree)?;
     let mut reader = DrakeReader { file, effects, materials: HashMap::new() };

@@ -1,16 +1,10 @@
 //! What programs look at in a mesh file.
 
-mod collada;
-mod measure;
-mod obj;
-mod stl;
+pub mod formats;
 
 use std::sync::Arc;
 
-pub use collada::ColladaFacts;
-pub use measure::Measures;
-pub use obj::ObjFacts;
-pub use stl::StlFacts;
+use self::formats::{ColladaFacts, Measures, ObjFacts, StlFacts};
 
 /// A mesh file that a URDF names.
 #[derive(Debug, Clone)]
@@ -67,17 +61,17 @@ impl MeshFacts {
         let mut facts = MeshFacts { head, size: bytes.len(), ..MeshFacts::default() };
         match by_ending(name).or_else(|| facts.content()) {
             Some(Format::Stl) => {
-                let (stl, measures) = stl::read(bytes);
+                let (stl, measures) = formats::stl(bytes);
                 facts.triangles = stl.binary.unwrap_or(stl.corners / 3);
                 (facts.stl, facts.measures) = (Some(stl), measures);
             }
             Some(Format::Obj) => {
-                let (obj, measures) = obj::read(bytes);
+                let (obj, measures) = formats::obj(bytes);
                 facts.triangles = obj.triangles;
                 (facts.obj, facts.measures) = (Some(obj), measures);
             }
             Some(Format::Collada) => {
-                facts.collada = collada::read(bytes);
+                facts.collada = formats::collada(bytes);
                 facts.triangles = facts.collada.as_ref().map_or(0, |collada| collada.triangles);
             }
             _ => {}
@@ -117,7 +111,7 @@ impl MeshFacts {
 
     /// Whether it is as long as a binary STL file of its number of triangles.
     pub fn is_binary_stl(&self) -> bool {
-        let count = stl::written_count(&self.head).and_then(|count| count.checked_mul(50));
+        let count = formats::written_count(&self.head).and_then(|count| count.checked_mul(50));
         count.is_some_and(|body| self.size.checked_sub(84) == Some(body))
     }
 }

@@ -1,11 +1,11 @@
 //! Joints.
 
-use super::reader::{MujocoReader, Release};
+use crate::mujoco::reader::{MujocoReader, Release};
+use crate::number::Pose;
 use crate::prelude::*;
-use crate::space::Pose;
 
 /// A joint, as the tree asks for it.
-pub(super) struct Joint<'t> {
+pub struct Joint<'t> {
     pub node: Node<'t>,
     pub name: &'t str,
     pub kind: &'t str,

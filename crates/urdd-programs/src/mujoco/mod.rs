@@ -1,19 +1,16 @@
 //! MuJoCo 4.0.0 and 3.3.7: `MjModel.from_xml_path`. It loads a file or refuses it whole, drops visuals without reading
 //! them, fixes the base to the world, and fuses links that do not move into the body above.
 
-mod inertia;
 mod joint;
 mod link;
-mod mesh;
 mod reader;
 
+use crate::number::Pose;
 use crate::prelude::*;
-use crate::space::Pose;
-use inertia::Body;
 use joint::Joint;
-use reader::{LEAST, MujocoReader, Release, Settings};
+use reader::{Body, LEAST, LEAST_EIGENVALUE, MujocoReader, Release, Settings};
 
-pub(crate) const FOUR: About = About {
+pub const FOUR: About = About {
     id: "mujoco",
     name: "MuJoCo 4",
     family: "MuJoCo",
@@ -25,7 +22,7 @@ pub(crate) const FOUR: About = About {
     read: |file, effects| read(file, effects, Release::Four),
 };
 
-pub(crate) const THREE: About = About {
+pub const THREE: About = About {
     id: "mujoco33",
     name: "MuJoCo 3.3",
     version: "3.3.7",
@@ -232,7 +229,7 @@ impl MujocoReader<'_> {
                 open.push((child, at));
                 if bodies[child].mass >= LEAST {
                     sum = sum.with(&bodies[child].placed(&at), self.release.epsilon());
-                    if sum.moments[2] < inertia::LEAST_EIGENVALUE {
+                    if sum.moments[2] < LEAST_EIGENVALUE {
                         let why = "masses that are fixed together have no inertia about a line";
                         return self.effects.refuse(inertial, Fault::Inertia(why));
                     }

@@ -1,8 +1,7 @@
 //! PyBullet 3.2.7: `loadURDF` with its default flags. It reads URDF by code of its own, which takes any text for a
 //! number, and never reads mimics, calibrations, safety controllers and, by default, tensors of inertia.
 
-mod joints;
-mod shapes;
+mod parts;
 
 use std::borrow::Cow;
 
@@ -18,7 +17,7 @@ const LONGEST_NAMES: [(&str, usize); 3] = [("robot", 1024), ("joint", 1100), ("l
 /// A robot of more links, its root aside, can be asked for nothing.
 const MOST_LINKS: usize = 127;
 
-pub(crate) const ABOUT: About = About {
+pub const ABOUT: About = About {
     id: "pybullet",
     name: "PyBullet",
     family: "PyBullet",
@@ -34,7 +33,7 @@ pub(crate) const ABOUT: About = About {
     read,
 };
 
-pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
+pub fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let lines = Lines::of(file.bytes);
     let reading = read_lines(file, &lines, effects);
     for effect in &mut effects.0 {

@@ -1,13 +1,13 @@
-//! `<gazebo>` elements, as libsdformat reads them.
+//! `<gazebo>` elements, as libsdformat reads them, and names that SDF cannot have, or that are of nothing.
 
-use super::tree::Release;
 use crate::prelude::*;
+use crate::sdformat::tree::{Release, Tree};
 
 const NUMBERS: &str = "mu1 mu2 kp kd maxVel minDepth dampingFactor laserRetro springReference \
     springStiffness stopCfm stopErp fudgeFactor";
 
 /// What is wrong in an element, if what it refers to is kept.
-pub(super) struct Suspect<'t> {
+pub struct Suspect<'t> {
     /// The link or joint; none for the robot.
     pub reference: &'t str,
     pub at: usize,
@@ -18,7 +18,7 @@ pub(super) struct Suspect<'t> {
 
 /// What the elements say.
 #[derive(Default)]
-pub(super) struct Extensions<'t> {
+pub struct Extensions<'t> {
     /// Fixed joints that stay joints.
     pub kept_joints: HashSet<&'t str>,
     /// Links and joints that are written as SDF.
@@ -27,7 +27,7 @@ pub(super) struct Extensions<'t> {
 }
 
 /// Reads all `<gazebo>` of a robot. A number that is none ends the program.
-pub(super) fn read<'t>(
+pub fn read<'t>(
     robot: Node<'t>,
     release: Release,
     effects: &mut Effects,
@@ -89,7 +89,7 @@ fn scoped(element: Node<'_>, release: Release) -> Option<Fault> {
             continue;
         }
         if let Some(name) = node.value("name").filter(|name| release.keeps(name)) {
-            return Some(super::names::scoped("part of `<gazebo>`", name));
+            return Some(reserved("part of `<gazebo>`", name));
         }
         open.extend(node.children());
     }
@@ -121,7 +121,7 @@ fn is_sensor(kind: &str) -> bool {
 }
 
 /// `std::stod`: the number that a text begins with; none also if it is too large or too small for one.
-pub(super) fn stod(text: &str) -> Option<f64> {
+pub fn stod(text: &str) -> Option<f64> {
     let (number, rest) = strtod(text)?;
     let written = &text[..text.len() - rest.len()];
     let mantissa = written.split(['e', 'E', 'p', 'P']).next().unwrap_or_default();
@@ -137,4 +137,122 @@ fn stoi(text: &str) -> Option<f64> {
     let digits = unsigned.bytes().take_while(u8::is_ascii_digit).count();
     let number: i32 = text[..text.len() - unsigned.len() + digits].parse().ok()?;
     Some(f64::from(number))
+}
+
+/// The names of the robot, and of links and joints that are kept, or are SDF in a `<gazebo>`: `own`.
+pub fn names(
+    robot: Node<'_>,
+    links: &Tree<'_>,
+    own: &[Node<'_>],
+    effects: &mut Effects,
+) -> Reading<()> {
+    let release = links.release;
+    let one = |node, kind, name, effects: &mut Effects| one(node, kind, name, release, effects);
+    one(robot, "robot", robot.value("name").unwrap_or_default(), effects)?;
+    let mut names = HashSet::new();
+    let bodies = || links.bodies.iter().filter(|body| body.is_made);
+    let joints = bodies().filter_map(|body| body.joint.as_ref());
+    let joints = joints.filter(|joint| !joint.has_no_type());
+    let all = bodies().map(|body| (body.node, "link", body.name));
+    for (node, kind, name) in all.chain(joints.map(|joint| (joint.node, "joint", joint.name))) {
+        one(node, kind, name, effects)?;
+        let read = release.read(name);
+        if read != name {
+            let rule = match release {
+                Release::Twelve => "white space around it is cut off, `true` is 1 and `false` 0",
+                Release::Fourteen => "white space around it is cut off",
+            };
+            effects.read_as(node, Part::of(kind, name), Fault::name(kind, name, rule), read);
+        }
+        if !names.insert(read) {
+            return effects.refuse(node, Fault::not_unique("link or joint", name));
+        }
+    }
+    let of_name = |name| {
+        let mut all = links.bodies.iter().filter_map(|body| body.joint.as_ref());
+        all.find(|joint| joint.name == name).map(|joint| joint.node)
+    };
+    for (body, from) in links.frames() {
+        for (node, kind, name) in [(body.node, "link", body.name), (from.node, "joint", from.name)]
+        {
+            one(node, kind, name, effects)?;
+            if !names.insert(release.read(name)) {
+                // Where a joint and a link have one name, the joint is named.
+                let fault = Fault::not_unique("link or joint", name);
+                return effects.refuse(of_name(name).unwrap_or(node), fault);
+            }
+        }
+    }
+    let own = || own.iter().filter_map(|&node| Some((node, node.value("name")?)));
+    for (node, name) in own() {
+        one(node, if node.name() == "link" { "link" } else { "joint" }, name, effects)?;
+        if !names.insert(release.read(name)) {
+            return effects.refuse(node, Fault::not_unique("link or joint", name));
+        }
+    }
+    for (node, name) in own().filter(|(node, _)| node.name() == "joint") {
+        own_joint(node, name, &names, release, effects)?;
+    }
+    Ok(())
+}
+
+/// A joint of SDF: its type, and the links, or joints in their place, that it connects.
+fn own_joint(
+    node: Node<'_>,
+    name: &str,
+    names: &HashSet<&str>,
+    release: Release,
+    effects: &mut Effects,
+) -> Reading<()> {
+    const KINDS: &str =
+        "ball continuous fixed gearbox prismatic revolute revolute2 screw universal";
+    if let Some(kind) = node.attribute("type")
+        && !KINDS.split(' ').any(|known| known.eq_ignore_ascii_case(&kind.value))
+    {
+        return effects.refuse(kind, Fault::value("type", &kind.value));
+    }
+    let ends = ["parent", "child"].map(|end| {
+        let end = node.child(end)?;
+        Some((end, release.read(end.text()?)))
+    });
+    let [Some(parent), Some(child)] = ends else { return Ok(()) };
+    for (end, link) in [parent, child] {
+        let is_world = link == "world" && end.name() == "parent";
+        if !is_world && (link == release.read(name) || !names.contains(link)) {
+            return effects.refuse(end, Fault::unknown("link or joint", link));
+        }
+    }
+    if parent.1 == child.1 {
+        return effects.refuse(child.0, Fault::Tree("a joint has one link on both sides"));
+    }
+    Ok(())
+}
+
+fn one(
+    node: Node<'_>,
+    kind: &'static str,
+    name: &str,
+    release: Release,
+    effects: &mut Effects,
+) -> Reading<()> {
+    let read = release.read(name);
+    let is_reserved = name == "world"
+        || read == "world"
+        || read.len() >= 4 && read.starts_with("__") && read.ends_with("__");
+    let at = node.attribute("name").map_or(node.start(), |name| name.range.start);
+    if read.is_empty() {
+        return effects.refuse(at, Fault::Empty("name"));
+    }
+    if release.keeps(name) {
+        return effects.refuse(at, reserved(kind, name));
+    }
+    if is_reserved {
+        return effects.refuse(at, Fault::name(kind, name, "the name is one of SDF's own"));
+    }
+    Ok(())
+}
+
+/// Why a name of a kind of thing is refused that has `::` in it.
+pub fn reserved(kind: &'static str, name: &str) -> Fault {
+    Fault::name(kind, name, "SDF has `::` between names")
 }

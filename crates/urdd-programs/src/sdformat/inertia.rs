@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
+use crate::number::{Matrix, Pose, Vector, centre, moved, sum, transposed, turned};
 use crate::prelude::*;
-use crate::space::{Matrix, Pose, Vector, centre, moved, sum, transposed, turned};
 
 /// The inertia of a link.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Inertia {
+pub struct Inertia {
     pub mass: f64,
     pub pose: Pose,
     /// About the centre of mass, in the axes of its pose.
@@ -77,7 +77,7 @@ fn tolerance(moments: Vector) -> f64 {
 }
 
 /// The inertia that urdfdom has of a link; without mass if it is faulty.
-pub(super) fn inertia_of(link: Node<'_>) -> Option<Inertia> {
+pub fn inertia_of(link: Node<'_>) -> Option<Inertia> {
     let inertial = link.child("inertial")?;
     let of = |element: &str, name: &str| number(inertial.child(element)?.value(name)?);
     let mut found = Inertia::default();
@@ -93,7 +93,7 @@ pub(super) fn inertia_of(link: Node<'_>) -> Option<Inertia> {
 }
 
 /// The pose of an element, if it has no fault.
-pub(super) fn pose(parent: Node<'_>) -> Option<Pose> {
+pub fn pose(parent: Node<'_>) -> Option<Pose> {
     let Some(origin) = parent.child("origin") else { return Some(Pose::default()) };
     let read = |value: Option<&Attribute<'_>>| match value {
         Some(value) => vector(&value.value),
@@ -102,11 +102,11 @@ pub(super) fn pose(parent: Node<'_>) -> Option<Pose> {
     Some(Pose::new(read(origin.attribute("xyz"))?, read(origin.attribute("rpy"))?))
 }
 
-pub(super) fn number(text: &str) -> Option<f64> {
+pub fn number(text: &str) -> Option<f64> {
     whole(istream(text))
 }
 
-pub(super) fn vector(text: &str) -> Option<Vector> {
+pub fn vector(text: &str) -> Option<Vector> {
     let numbers: Option<Vec<f64>> = pieces(text).map(number).collect();
     numbers?.try_into().ok()
 }

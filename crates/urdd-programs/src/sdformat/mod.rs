@@ -3,17 +3,15 @@
 
 mod gazebo;
 mod inertia;
-mod names;
 mod tree;
-mod xml;
 
-use self::gazebo::{Extensions, stod};
-use self::inertia::{number, vector};
-use self::tree::{Body, Joint, Release, Tree};
 use crate::prelude::*;
 use crate::urdfdom::{self, Model};
+use gazebo::{Extensions, stod};
+use inertia::{number, vector};
+use tree::{Body, Joint, Release, Tree};
 
-pub(crate) const FORTRESS: About = About {
+pub const FORTRESS: About = About {
     id: "sdformat",
     name: "Gazebo Fortress",
     family: "Gazebo",
@@ -25,7 +23,7 @@ pub(crate) const FORTRESS: About = About {
     read: |file, effects| read(file, Release::Twelve, effects),
 };
 
-pub(crate) const HARMONIC: About = About {
+pub const HARMONIC: About = About {
     id: "sdformat14",
     name: "Gazebo Harmonic",
     version: "14.9.0",
@@ -36,7 +34,7 @@ pub(crate) const HARMONIC: About = About {
 };
 
 /// Gazebo Jetty, whose `parser_urdf.cc` is that of Harmonic.
-pub(crate) const JETTY: About = About {
+pub const JETTY: About = About {
     id: "sdformat16",
     name: "Gazebo Jetty",
     version: "16.1.0",
@@ -52,14 +50,14 @@ fn read(file: &File, release: Release, effects: &mut Effects) -> Reading<()> {
     if let Some(sdf) = tree.tops().find(|top| top.name() == "sdf") {
         return effects.refuse(sdf, Fault::Other("the file has `<sdf>`, and is read as SDF alone"));
     }
-    xml::check(file.bytes, tree, effects)?;
+    rewritten(file.bytes, tree, effects)?;
     let model = urdfdom::model(tree, urdfdom::Release::Four, effects)?;
     let extensions = gazebo::read(model.robot, release, effects)?;
     origin(model.robot, effects)?;
     never_read(&model, release, effects);
     let mut links = Tree::new(&model, &extensions.kept_joints, release);
     links.build(effects)?;
-    names::check(model.robot, &links, &extensions.own, effects)?;
+    gazebo::names(model.robot, &links, &extensions.own, effects)?;
     for (index, body) in links.bodies.iter().enumerate() {
         match body.is_made {
             true => {
@@ -260,7 +258,7 @@ fn shapes(body: &Body<'_>, release: Release, effects: &mut Effects) -> Reading<(
     for (kind, count) in ["visual", "collision"].into_iter().zip(body.kept) {
         for shape in body.node.named(kind).take(count) {
             if let Some(name) = shape.attribute("name").filter(|name| release.keeps(&name.value)) {
-                return effects.refuse(name, names::scoped(kind, &name.value));
+                return effects.refuse(name, gazebo::reserved(kind, &name.value));
             }
             writable(shape.child("origin"), &["xyz"], effects)?;
             let form = shape.child("geometry").and_then(|geometry| geometry.children().next());
@@ -291,4 +289,84 @@ fn writable(node: Option<Node<'_>>, names: &[&str], effects: &mut Effects) -> Re
         }
     }
     Ok(())
+}
+
+const NOT_UTF8: Fault = Fault::Xml("the file is not UTF-8, which it says or has by default");
+
+/// What TinyXML 2.6.2, in urdfdom 3, refuses of a file that tinyxml2 has read and written again.
+fn rewritten(bytes: &[u8], tree: &crate::tree::Tree<'_>, effects: &mut Effects) -> Reading<()> {
+    let robot = tree.tops().find(|top| top.name() == "robot").map_or(0, At::at);
+    if let Some(text) = tree.stray.filter(|text| *text < robot) {
+        return effects.refuse(text, Fault::Xml("text stands before the root"));
+    }
+    let mut outside_quotes = declaration(bytes)
+        .into_iter()
+        .flat_map(|inside| inside.split(|&byte| byte == b'"').step_by(2));
+    if outside_quotes.any(|piece| piece.contains(&b'>')) {
+        return effects.refuse(0, Fault::Xml("the declaration has `>` inside"));
+    }
+    let is_checked = is_utf8(bytes) && std::str::from_utf8(bytes).is_err();
+    for element in &tree.elements {
+        let begins_well = |name: &str| !name.starts_with(':');
+        // One that is empty is passed over.
+        let is_filled = !element.children.is_empty() || element.text.is_some();
+        if is_filled && !begins_well(&element.name) {
+            let fault = Fault::Xml("the name of an element begins with `:`");
+            return effects.refuse(element.tag.start, fault);
+        }
+        for attribute in &element.attributes {
+            if !begins_well(&attribute.name) {
+                let fault = Fault::Xml("the name of an attribute begins with `:`");
+                return effects.refuse(attribute, fault);
+            }
+            if is_checked && swallows(value(bytes, attribute)) {
+                return effects.refuse(attribute, NOT_UTF8);
+            }
+        }
+        let behind = bytes.get(element.tag.end..).filter(|_| is_checked).unwrap_or_default();
+        let text = behind.split(|&byte| byte == b'<').next().unwrap_or_default();
+        if swallows(text) {
+            return effects.refuse(element.tag.end, NOT_UTF8);
+        }
+    }
+    Ok(())
+}
+
+/// What is in the declaration at the beginning of a file.
+fn declaration(bytes: &[u8]) -> Option<&[u8]> {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let inside = text.strip_prefix(b"<?xml")?;
+    inside.get(..inside.windows(2).position(|two| two == b"?>")?)
+}
+
+/// Whether characters are of more than one byte, as they are if there is a declaration that names no other encoding.
+fn is_utf8(bytes: &[u8]) -> bool {
+    let has_mark = bytes.starts_with(b"\xef\xbb\xbf");
+    let Some(declaration) = declaration(bytes) else { return has_mark };
+    let declaration = String::from_utf8_lossy(declaration).to_ascii_lowercase();
+    let encoding = declaration.split_once("encoding").map_or("", |(_, rest)| rest);
+    let name = encoding.split(['"', '\'']).nth(1).unwrap_or_default();
+    has_mark || name.is_empty() || name.starts_with("utf-8") || name.starts_with("utf8")
+}
+
+/// The bytes of a value as they are written.
+fn value<'a>(bytes: &'a [u8], attribute: &Attribute<'_>) -> &'a [u8] {
+    let written = bytes.get(attribute.range.clone()).unwrap_or_default();
+    let start = written.iter().position(|byte| matches!(byte, b'"' | b'\''));
+    let inside = start.and_then(|start| written.get(start + 1..written.len() - 1));
+    inside.unwrap_or_default()
+}
+
+/// Whether the last character takes what follows with it.
+fn swallows(text: &[u8]) -> bool {
+    let mut at = 0;
+    while let Some(byte) = text.get(at) {
+        at += match byte {
+            0xc2..=0xdf => 2,
+            0xe0..=0xef => 3,
+            0xf0..=0xf4 => 4,
+            _ => 1,
+        };
+    }
+    at > text.len()
 }

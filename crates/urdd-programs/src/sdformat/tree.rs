@@ -3,9 +3,9 @@
 
 use urdd_format::short::Short;
 
-use super::inertia::{Inertia, inertia_of, pose};
+use crate::number::Pose;
 use crate::prelude::*;
-use crate::space::Pose;
+use crate::sdformat::inertia::{Inertia, inertia_of, pose};
 use crate::urdfdom::Model;
 
 /// The least mass of a link, kg.
@@ -13,7 +13,7 @@ const MIN_MASS: f64 = 1e-6;
 
 /// Which libsdformat.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Release {
+pub enum Release {
     /// 12.3.0.
     Twelve,
     /// 14.1 and later. It reads mimics, and what it writes is SDF 1.11, whose names have no `::`. As in 12.7, links and
@@ -41,7 +41,7 @@ impl Release {
 }
 
 /// A link, and the joint above it.
-pub(super) struct Body<'t> {
+pub struct Body<'t> {
     pub name: &'t str,
     pub node: Node<'t>,
     /// How many visuals and collisions are read.
@@ -56,7 +56,7 @@ pub(super) struct Body<'t> {
 }
 
 /// The last joint that has a link as its child.
-pub(super) struct Joint<'t> {
+pub struct Joint<'t> {
     pub name: &'t str,
     pub node: Node<'t>,
     pub kind: &'t str,
@@ -73,7 +73,7 @@ impl Joint<'_> {
     }
 }
 
-pub(super) struct Tree<'t> {
+pub struct Tree<'t> {
     pub bodies: Vec<Body<'t>>,
     pub of_name: HashMap<&'t str, usize>,
     /// Where two links without mass become one, if any do.

@@ -1,14 +1,13 @@
 //! urdf-loader 0.13.1 of three.js, with its defaults: visuals, no collisions. Any text is a number to it, perhaps NaN.
 //! Names of elements may be in any case. Chromium reads a file that is not well-formed as far as the first error.
 
-mod joints;
-mod mesh;
+mod parts;
 
+use crate::file::Text;
 use crate::number::parse_float;
 use crate::prelude::*;
-use crate::strict::Text;
 
-pub(crate) const ABOUT: About = About {
+pub const ABOUT: About = About {
     id: "urdf_loader",
     name: "three.js (urdf-loader)",
     family: "three.js",
@@ -23,7 +22,7 @@ pub(crate) const ABOUT: About = About {
     read,
 };
 
-pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
+pub fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let (text, of_text);
     let [_, tree] = match &file.strict {
         Some(trees) => effects.parsed(trees.as_ref().map_err(|bad| *bad))?,

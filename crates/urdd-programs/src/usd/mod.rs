@@ -4,13 +4,12 @@
 mod parse;
 mod tree;
 
-use tree::{Joint, last};
-
+use crate::file;
 use crate::number::python;
 use crate::prelude::*;
-use crate::strict;
+use tree::{Joint, last};
 
-pub(crate) const ABOUT: About = About {
+pub const ABOUT: About = About {
     id: "usd",
     name: "Isaac and Newton (urdf-usd-converter)",
     family: "Isaac and Newton",
@@ -22,7 +21,7 @@ pub(crate) const ABOUT: About = About {
     read,
 };
 
-pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
+pub fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let text = match std::str::from_utf8(file.bytes) {
         Ok(text) => text,
         Err(bad) => {
@@ -36,7 +35,7 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
         Some(Ok(trees)) if is_whole => trees,
         _ => {
             read = parse::without_declarations(text);
-            of_read = effects.parsed(strict::trees(&read, None))?;
+            of_read = effects.parsed(file::trees(&read, None))?;
             &of_read
         }
     };

@@ -9,7 +9,7 @@ use crate::prelude::*;
 const MAX_DEPTH: usize = 993;
 
 /// Lines that are XML declarations are left out, wherever they are; here they become spaces.
-pub(super) fn without_declarations(text: &str) -> Cow<'_, str> {
+pub fn without_declarations(text: &str) -> Cow<'_, str> {
     let is_declaration = |line: &str| {
         let line = line.trim();
         line.starts_with("<?xml") && line.ends_with("?>")
@@ -35,7 +35,7 @@ struct Place<'t> {
     is_kept: bool,
 }
 
-pub(super) fn elements(robot: Node<'_>, effects: &mut Effects) -> Reading<()> {
+pub fn elements(robot: Node<'_>, effects: &mut Effects) -> Reading<()> {
     let mut open = vec![Place { node: robot, above: Some(""), depth: 1, is_kept: true }];
     while let Some(place) = open.pop() {
         let node = place.node;

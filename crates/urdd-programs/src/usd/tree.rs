@@ -3,7 +3,7 @@
 use crate::number::python;
 use crate::prelude::*;
 
-pub(super) struct Joint<'t> {
+pub struct Joint<'t> {
     pub node: Node<'t>,
     pub name: &'t str,
     pub kind: &'t str,
@@ -12,7 +12,7 @@ pub(super) struct Joint<'t> {
 }
 
 /// The last element of a name, which is the one that counts.
-pub(super) fn last<'t>(node: Node<'t>, name: &str) -> Option<Node<'t>> {
+pub fn last<'t>(node: Node<'t>, name: &str) -> Option<Node<'t>> {
     node.named(name).last()
 }
 
@@ -20,7 +20,7 @@ pub(super) fn last<'t>(node: Node<'t>, name: &str) -> Option<Node<'t>> {
 const MAX_LINKS: usize = 495;
 
 /// Finds the links that are written, and says which links and joints are not.
-pub(super) fn find<'t>(
+pub fn find<'t>(
     robot: Node<'t>,
     first: Node<'t>,
     links: &HashMap<&'t str, Node<'t>>,

@@ -1,15 +1,72 @@
-//! What the renderings say: sections of lines. How a name or value is set apart is theirs.
+//! A comparison as text for people, and as Markdown for a pull request.
 
 use urdd_format::diff_report::{
     DiffBox, DiffReport, DiffSide, DofDifference, FindingDifference, LinkDifference,
     ModuleDifference, PairChange, PairDifference, PartDifference, PoseDifference, Presence,
     ValueChange,
 };
+use urdd_format::escape;
 use urdd_format::readable::{counted, metres, number};
 use urdd_format::report::{Kind, Verdict};
 
+/// Maximum length of Markdown in bytes: GitHub takes comments of 65,536 characters.
+const MAX_BYTES: usize = 60_000;
+
+/// A comparison as text. Names from the input are escaped.
+pub fn text(report: &DiffReport) -> String {
+    let line = |spans: &[Span]| line(spans, " -> ", |text| escape::line(text).into_owned());
+    let mut out = String::new();
+    for (word, of) in [("A", &report.before), ("B", &report.after)] {
+        out.push_str(&format!("{word}  {}\n", line(&side(of))));
+    }
+    for section in sections(report) {
+        out.push_str(&format!("\n{}\n", section.title));
+        for Line { depth, spans } in &section.lines {
+            let margin = "    ".repeat(*depth);
+            out.push_str(&format!("  {margin}{}\n", line(spans)));
+        }
+    }
+    out.push_str(&format!("\n{}\n", headline(report)));
+    out
+}
+
+/// A comparison as Markdown. All text from the input is in code spans: no name becomes a link, a mention or HTML. Long
+/// comparisons are cut; the last line says so.
+pub fn markdown(report: &DiffReport) -> String {
+    let line = |spans: &[Span]| line(spans, " → ", escape::code_span);
+    let mut out = format!("### `urdd diff`: {}\n\n", headline(report));
+    for (word, of) in [("A", &report.before), ("B", &report.after)] {
+        out.push_str(&format!("- {word}: {}\n", line(&side(of))));
+    }
+    for section in sections(report) {
+        let mut heading = format!("\n#### {}\n\n", section.title);
+        for Line { depth, spans } in &section.lines {
+            let margin = "  ".repeat(*depth);
+            let next = format!("{heading}{margin}- {}\n", line(spans));
+            if out.len() + next.len() > MAX_BYTES {
+                out.push_str(
+                    "\n*The rest is left out here. `urdd diff` without `--format markdown` prints all.*\n",
+                );
+                return out;
+            }
+            out.push_str(&next);
+            heading.clear();
+        }
+    }
+    out
+}
+
+fn line(spans: &[Span], arrow: &str, escaped: impl Fn(&str) -> String) -> String {
+    let spans = spans.iter().map(|span| match span {
+        Span::Words(text) => text.clone(),
+        Span::Input(text) => escaped(text),
+        Span::Arrow => arrow.to_owned(),
+    });
+    spans.collect()
+}
+
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Span {
+enum Span {
     /// Our own words.
     Words(String),
     /// A name, a path, a value or a message from the input.
@@ -20,16 +77,16 @@ pub(super) enum Span {
 
 /// A line, and how far it is indented.
 #[derive(Debug, Clone)]
-pub(super) struct Line {
-    pub depth: usize,
-    pub spans: Vec<Span>,
+struct Line {
+    depth: usize,
+    spans: Vec<Span>,
 }
 
 /// Lines under a heading.
 #[derive(Debug)]
-pub(super) struct Section {
-    pub title: &'static str,
-    pub lines: Vec<Line>,
+struct Section {
+    title: &'static str,
+    lines: Vec<Line>,
 }
 
 fn words(text: impl Into<String>) -> Span {
@@ -41,7 +98,7 @@ fn input(text: &str) -> Span {
 }
 
 /// Number of differences: entries of all lists but the notes.
-pub(crate) fn count(report: &DiffReport) -> usize {
+pub fn count(report: &DiffReport) -> usize {
     let lists = [
         report.robot.len(),
         report.links.len(),
@@ -63,7 +120,7 @@ pub(crate) fn count(report: &DiffReport) -> usize {
 }
 
 /// The result in a sentence.
-pub(super) fn headline(report: &DiffReport) -> String {
+fn headline(report: &DiffReport) -> String {
     match count(report) {
         0 => "no difference in meaning".to_owned(),
         count => counted(count, "difference"),
@@ -71,7 +128,7 @@ pub(super) fn headline(report: &DiffReport) -> String {
 }
 
 /// A robot in a line.
-pub(super) fn side(side: &DiffSide) -> Vec<Span> {
+fn side(side: &DiffSide) -> Vec<Span> {
     let kind = match side.kind {
         Kind::Urdd => "URDD",
         Kind::Urdf => "URDF",
@@ -100,7 +157,7 @@ pub(super) fn side(side: &DiffSide) -> Vec<Span> {
 }
 
 /// All sections with differences, then the notes.
-pub(super) fn sections(report: &DiffReport) -> Vec<Section> {
+fn sections(report: &DiffReport) -> Vec<Section> {
     let mut sections = Vec::new();
     let mut add = |title: &'static str, lines: Vec<Line>| {
         if !lines.is_empty() {

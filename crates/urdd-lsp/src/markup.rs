@@ -1,6 +1,167 @@
-//! Reads elements.
+//! The elements of an XML text that may be half typed. No text is refused: what is missing ends where the next thing
+//! begins.
 
+use std::borrow::Cow;
 use std::ops::Range;
+
+/// The elements of a text, in the order in which they begin.
+#[derive(Debug)]
+pub struct Markup {
+    pub elements: Vec<Element>,
+}
+
+impl Markup {
+    pub fn new(text: &str) -> Self {
+        Markup { elements: scan(text) }
+    }
+
+    pub fn name<'t>(&self, text: &'t str, element: usize) -> &'t str {
+        &text[self.elements[element].name.clone()]
+    }
+
+    /// The name of the element that contains this one.
+    pub fn parent_name<'t>(&self, text: &'t str, element: usize) -> Option<&'t str> {
+        let parent = self.elements[element].parent?;
+        Some(self.name(text, parent))
+    }
+
+    pub fn attribute(&self, text: &str, element: usize, name: &str) -> Option<&Attribute> {
+        let mut attributes = self.elements[element].attributes.iter();
+        attributes.find(|attribute| &text[attribute.name.clone()] == name)
+    }
+
+    /// The value of an attribute, with references such as `&amp;` replaced.
+    pub fn value<'t>(&self, text: &'t str, element: usize, name: &str) -> Option<Cow<'t, str>> {
+        let attribute = self.attribute(text, element, name)?;
+        Some(unescaped(&text[attribute.value.clone()]))
+    }
+
+    /// The element and those that contain it, from the inside.
+    pub fn ancestors(&self, element: usize) -> impl Iterator<Item = usize> {
+        std::iter::successors(Some(element), |one| self.elements[*one].parent)
+    }
+
+    pub fn has_children(&self, element: usize) -> bool {
+        let next = self.elements.get(element + 1);
+        next.is_some_and(|next| next.parent == Some(element))
+    }
+
+    pub fn children(&self, element: usize) -> impl Iterator<Item = usize> {
+        let end = self.elements[element].end;
+        let inside = (element + 1..self.elements.len())
+            .take_while(move |other| self.elements[*other].tag.start < end);
+        inside.filter(move |other| self.elements[*other].parent == Some(element))
+    }
+}
+
+/// An attribute's value as it is meant.
+pub fn unescaped(value: &str) -> Cow<'_, str> {
+    if !value.contains('&') {
+        return Cow::Borrowed(value);
+    }
+    let mut plain = value.to_owned();
+    for (escaped, c) in
+        [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&apos;", "'"), ("&amp;", "&")]
+    {
+        plain = plain.replace(escaped, c);
+    }
+    Cow::Owned(plain)
+}
+
+/// A text as the value of an attribute.
+pub fn escaped(value: &str) -> String {
+    let value = value.replace('&', "&amp;").replace('<', "&lt;");
+    value.replace('"', "&quot;").replace('\'', "&apos;")
+}
+
+/// What is at an offset of a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// The name in a start tag.
+    TagName { element: usize },
+    /// In an end tag, or where one is typed.
+    EndTag {
+        /// The element to close.
+        element: usize,
+    },
+    /// The name of an attribute, or the blank where one is typed.
+    AttributeName {
+        element: usize,
+        /// Index of the attribute; `None` at a blank.
+        attribute: Option<usize>,
+    },
+    /// The value of an attribute.
+    Value { element: usize, attribute: usize },
+    /// Between tags.
+    Content {
+        /// The innermost element.
+        element: Option<usize>,
+    },
+}
+
+impl Place {
+    /// The element.
+    pub fn element(self) -> Option<usize> {
+        match self {
+            Place::TagName { element }
+            | Place::EndTag { element }
+            | Place::AttributeName { element, .. }
+            | Place::Value { element, .. } => Some(element),
+            Place::Content { element } => element,
+        }
+    }
+}
+
+impl Markup {
+    /// What is at an offset.
+    pub fn place(&self, text: &str, offset: usize) -> Place {
+        let after = self.elements.partition_point(|one| one.tag.start < offset);
+        let Some(last) = after.checked_sub(1) else {
+            return Place::Content { element: None };
+        };
+        let tag = &self.elements[last].tag;
+        let is_unfinished = !self.elements[last].is_finished;
+        // In an unfinished tag, one more blank still belongs to it.
+        let blank = text.get(tag.end..offset.max(tag.end)).unwrap_or_default();
+        let beyond = is_unfinished && blank.chars().all(|c| c == ' ');
+        if offset < tag.end || (is_unfinished && offset == tag.end) || beyond {
+            return self.in_tag(last, offset);
+        }
+        let before = text.get(tag.end..offset).unwrap_or_default();
+        let end_tag = before.rfind('<').filter(|at| {
+            let typed = &before[*at..];
+            typed.starts_with("</") && !typed.contains('>')
+        });
+        // What an end tag closes is what it is in, though it ends with it.
+        let within = end_tag.map_or(offset, |at| tag.end + at);
+        let element = self.ancestors(last).find(|one| {
+            let one = &self.elements[*one];
+            let is_inside = within < one.end || within == text.len();
+            one.tag.end <= within && one.tag.end < one.end && is_inside
+        });
+        match (end_tag, element) {
+            (Some(_), Some(element)) => Place::EndTag { element },
+            _ => Place::Content { element },
+        }
+    }
+
+    fn in_tag(&self, element: usize, offset: usize) -> Place {
+        let one = &self.elements[element];
+        if offset <= one.name.end {
+            return Place::TagName { element };
+        }
+        for (attribute, at) in one.attributes.iter().enumerate() {
+            if at.name.start <= offset && offset <= at.name.end {
+                let attribute = Some(attribute);
+                return Place::AttributeName { element, attribute };
+            }
+            if at.value.start > at.name.end && at.value.start <= offset && offset <= at.value.end {
+                return Place::Value { element, attribute };
+            }
+        }
+        Place::AttributeName { element, attribute: None }
+    }
+}
 
 /// An attribute.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,7 +192,7 @@ pub struct Element {
 const CONTAINERS: &str = "robot link joint visual collision inertial geometry material transmission gazebo \
     ros2_control actuator";
 
-pub(super) fn scan(text: &str) -> Vec<Element> {
+fn scan(text: &str) -> Vec<Element> {
     let mut scan = Scan { text, elements: Vec::new(), open: Vec::new() };
     let mut at = 0;
     while let Some(next) = text.get(at..).and_then(|rest| rest.find('<')) {
