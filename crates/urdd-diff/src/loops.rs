@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Translation3};
 use urdd_directory::loops_toml::{File, FrameTable};
 use urdd_format::diff_report::{DofDifference, PartDifference};
 use urdd_format::index::Count;
-use urdd_format::loops::LoopsModule;
+use urdd_format::loops::{LoopKind, LoopsModule};
 use urdd_format::pose::Pose;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_kinematics::pose::from_isometry;
@@ -22,7 +22,6 @@ const INDEPENDENT: &str = "DOFs that move freely";
 /// What a joint of URDF+ says of that.
 pub const OF_JOINT: &str = "independent";
 
-/// What two robots say of loops.
 pub struct Both {
     parts: [Parts; 2],
     /// Whether both say which DOFs move freely, and mean the same by it: a URDF may leave it open or say too many, and a URDD
@@ -52,7 +51,6 @@ impl Both {
         Both { parts, say_independent, labels }
     }
 
-    /// The loops and couplings that differ.
     pub fn differences(&self, tolerance: f64) -> Vec<PartDifference> {
         let [a, b] = &self.parts;
         fields::differences(a, b, tolerance)
@@ -78,13 +76,9 @@ fn of_module(module: &LoopsModule, side: &Side) -> Parts {
         .loops
         .iter()
         .map(|one| {
-            let mut fields = Fields::default();
-            fields.text("kind", Some(one.kind.as_str()));
-            fields.text("link_a", link(one.link_a_idx.get()));
-            frame("frame_a.", &one.frame_a, &mut fields);
-            fields.text("link_b", link(one.link_b_idx.get()));
-            frame("frame_b.", &one.frame_b, &mut fields);
-            (format!("loop {}", one.name), fields)
+            let a = (link(one.link_a_idx.get()), &one.frame_a);
+            let b = (link(one.link_b_idx.get()), &one.frame_b);
+            (format!("loop {}", one.name), closed(one.kind, [a, b]))
         })
         .collect();
     parts.extend(module.couplings.iter().map(|one| {
@@ -102,19 +96,15 @@ fn of_file(file: &File, side: &Side) -> Parts {
     let mut links: HashMap<&str, &str> =
         joints.map(|joint| (&*joint.name, &*joint.child.link)).collect();
     links.extend(side.robot.links.iter().map(|link| (&*link.name, &*link.name)));
-    let link = |name: &str| links.get(name).map_or(name, |link| *link).to_owned();
+    let link = |name| links.get(name).copied().unwrap_or(name);
     let mut parts: Parts = file
         .loops
         .iter()
         .map(|one| {
             let one = one.get_ref();
-            let mut fields = Fields::default();
-            fields.text("kind", Some(one.kind.as_str()));
-            fields.text("link_a", Some(&link(one.link_a.get_ref())));
-            frame("frame_a.", &pose(&one.frame_a), &mut fields);
-            fields.text("link_b", Some(&link(one.link_b.get_ref())));
-            frame("frame_b.", &pose(&one.frame_b), &mut fields);
-            (format!("loop {}", one.name), fields)
+            let a = (Some(link(one.link_a.get_ref())), &pose(&one.frame_a));
+            let b = (Some(link(one.link_b.get_ref())), &pose(&one.frame_b));
+            (format!("loop {}", one.name), closed(one.kind, [a, b]))
         })
         .collect();
     parts.extend(file.couplings.iter().map(|one| {
@@ -143,9 +133,17 @@ fn pose(frame: &FrameTable) -> Pose {
     from_isometry(&Isometry3::from_parts(Translation3::from(frame.xyz), from_rpy(frame.rpy)))
 }
 
-fn frame(prefix: &str, pose: &Pose, fields: &mut Fields) {
-    fields.numbers(format!("{prefix}position"), "m", Some(pose.position));
-    fields.numbers(format!("{prefix}quaternion_wxyz"), "", Some(pose.quaternion_wxyz));
+/// A loop, by the links of its ends and the frames in them.
+fn closed(kind: LoopKind, ends: [(Option<&str>, &Pose); 2]) -> Fields {
+    let mut fields = Fields::default();
+    fields.text("kind", Some(kind.as_str()));
+    for (end, (link, frame)) in ["a", "b"].into_iter().zip(ends) {
+        fields.text(format!("link_{end}"), link);
+        fields.numbers(format!("frame_{end}.position"), "m", Some(frame.position));
+        let turn = Some(frame.quaternion_wxyz);
+        fields.numbers(format!("frame_{end}.quaternion_wxyz"), "", turn);
+    }
+    fields
 }
 
 fn coupling(constant: f64, terms: BTreeMap<String, &[f64]>) -> Fields {

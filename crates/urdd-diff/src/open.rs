@@ -27,7 +27,7 @@ use urdd_validate::{Run, ValidateError, alone, examine_urdf, found, validate, va
 use urdd_xml::Xml;
 use urdd_xml::other_parts::other_parts;
 
-use crate::shapes::{Place, Shapes, mesh_at, shapes};
+use crate::shapes::{Place, Shapes, elements, mesh_at, shapes};
 use crate::side::{self, DiffError, Options, Side};
 
 impl Side {
@@ -195,21 +195,14 @@ fn read_shapes(urdd: &Urdd, view: &Robot) -> Shapes {
             Some((mesh.filename.as_str(), file.clone()))
         })
         .collect();
-    let mut files: Vec<(Place, Result<File, String>)> = Vec::new();
-    for (link, of) in view.links.iter().enumerate() {
-        for kind in [GeometryKind::Visual, GeometryKind::Collision] {
-            for (index, element) in of.elements(kind).iter().enumerate() {
-                if let Some(Geometry::Mesh(mesh)) = &element.geometry {
-                    let place = (link, kind, index);
-                    // Published URDDs list visual meshes alone.
-                    let path = paths.get(&place).or_else(|| by_name.get(mesh.filename.as_str()));
-                    let missing = || "the URDD carries no such original mesh".to_owned();
-                    files.push((place, path.cloned().ok_or_else(missing)));
-                }
-            }
-        }
-    }
-    shapes(view, files, |(profile, path)| scene(urdd, *profile, path))
+    let files = elements(view).filter_map(|(place, element)| {
+        let Some(Geometry::Mesh(mesh)) = &element.geometry else { return None };
+        // Published URDDs list visual meshes alone.
+        let path = paths.get(&place).or_else(|| by_name.get(mesh.filename.as_str()));
+        let missing = || "the URDD carries no such original mesh".to_owned();
+        Some((place, path.cloned().ok_or_else(missing)))
+    });
+    shapes(view, files.collect(), |(profile, path)| scene(urdd, *profile, path))
 }
 
 /// The path of each mesh element, as `original_meshes_module` has it.

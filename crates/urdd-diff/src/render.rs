@@ -82,7 +82,6 @@ struct Line {
     spans: Vec<Span>,
 }
 
-/// Lines under a heading.
 #[derive(Debug)]
 struct Section {
     title: &'static str,
@@ -184,7 +183,6 @@ fn sections(report: &DiffReport) -> Vec<Section> {
     sections
 }
 
-/// A value that differs.
 fn change(depth: usize, change: &ValueChange) -> Line {
     let one = |side: &Option<String>| match side {
         Some(text) if text.is_empty() => words("empty"),

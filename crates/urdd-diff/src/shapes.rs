@@ -21,7 +21,6 @@ pub type Place = (usize, GeometryKind, usize);
 /// Maximum number of vertices that are placed to find bounding boxes: a URDF may name one large mesh very often.
 const MAX_PLACED_VERTICES: usize = 50_000_000;
 
-/// The meshes and bounding boxes of a robot's elements.
 #[derive(Debug, Default)]
 pub struct Shapes {
     /// The triangles of each mesh element, or why they could not be read.
@@ -57,6 +56,16 @@ impl Shapes {
     }
 }
 
+/// The visual and collision elements of all links, visual before collision in each.
+pub fn elements(robot: &Robot) -> impl Iterator<Item = (Place, &Element)> {
+    robot.links.iter().enumerate().flat_map(|(link, of)| {
+        [GeometryKind::Visual, GeometryKind::Collision].into_iter().flat_map(move |kind| {
+            let all = of.elements(kind).iter().enumerate();
+            all.map(move |(index, element)| ((link, kind, index), element))
+        })
+    })
+}
+
 /// Reads the shapes of a robot. `files` says for each mesh element which file it names, or why there is none; `read`
 /// reads a file. Each file is read once, one after the other.
 pub fn shapes<File: Clone + Eq + std::hash::Hash>(
@@ -65,15 +74,9 @@ pub fn shapes<File: Clone + Eq + std::hash::Hash>(
     read: impl Fn(&File) -> Result<Arc<Scene>, String>,
 ) -> Shapes {
     let mut shapes = Shapes::default();
-    for (link, of) in robot.links.iter().enumerate() {
-        for kind in [GeometryKind::Visual, GeometryKind::Collision] {
-            for (index, element) in of.elements(kind).iter().enumerate() {
-                if let Some(bounds) = primitive(element) {
-                    shapes.bounds.insert((link, kind, index), bounds);
-                }
-            }
-        }
-    }
+    let primitives = elements(robot);
+    let primitives = primitives.filter_map(|(place, element)| Some((place, primitive(element)?)));
+    shapes.bounds.extend(primitives);
     let mut order: Vec<File> = Vec::new();
     let mut places: HashMap<File, Vec<Place>> = HashMap::new();
     for (place, file) in files {
@@ -150,7 +153,6 @@ fn primitive(element: &Element) -> Option<Bounds> {
     finite.then_some(bounds)
 }
 
-/// The triangles of a mesh file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Triangles {
     /// SHA-256 of the sorted triangles.

@@ -7,9 +7,6 @@ use urdd_source::loops::{File, Said, beside};
 use urdd_source::{Settings, SourceMeshes, Trail};
 use urdd_xml::{Document, Node, Xml, XmlError};
 
-use crate::settings::LintSettings;
-
-/// A file that the URDF names.
 #[derive(Debug, Clone, Copy)]
 pub struct NamedFile<'a, 'n> {
     /// The element with the attribute `filename`.
@@ -18,7 +15,6 @@ pub struct NamedFile<'a, 'n> {
 }
 
 impl<'n> NamedFile<'_, 'n> {
-    /// Whether it is an absolute path.
     pub fn is_absolute(&self) -> bool {
         let path = self.without_scheme();
         let mut first = path.chars();
@@ -40,7 +36,6 @@ impl<'n> NamedFile<'_, 'n> {
         schemes.iter().any(|scheme| self.name.starts_with(scheme))
     }
 
-    /// The path, if it is absolute.
     pub fn path(&self) -> Option<&'n Path> {
         self.is_absolute().then(|| Path::new(self.without_scheme()))
     }
@@ -60,7 +55,6 @@ pub struct Closing<'a> {
 }
 
 impl<'a> Closing<'a> {
-    /// That of a URDF at a path.
     pub fn new(source: Option<&'a SourceMeshes>, urdf: PathBuf, settings: &'a Settings) -> Self {
         let own = source.and_then(|source| source.loops.as_ref());
         Closing { own, urdf, settings, beside: OnceLock::new() }
@@ -103,31 +97,11 @@ pub struct Srdf<'a> {
 }
 
 impl<'a> Srdf<'a> {
-    /// That of a file.
     pub fn new(file: &'a SrdfFile) -> Self {
         Srdf { file, xml: OnceLock::new() }
     }
 
-    /// Its XML, or why it is none.
     pub fn document(&self) -> Result<&Document<'a>, &XmlError> {
         self.xml.get_or_init(|| Xml::new(&self.file.text)).document()
-    }
-}
-
-/// The SRDFs of a robot.
-pub struct Srdfs<'a> {
-    /// The settings by which those that are xacro are expanded, if they may be.
-    pub xacro: Option<&'a LintSettings>,
-    /// What may be one, read on first use.
-    pub files: &'a OnceLock<Vec<SrdfFile>>,
-    /// All that are, found on first use.
-    pub all: OnceLock<Vec<Srdf<'a>>>,
-}
-
-impl<'a> Srdfs<'a> {
-    /// Those that are xacro are expanded where the settings allow that.
-    pub fn new(settings: &'a LintSettings, files: &'a OnceLock<Vec<SrdfFile>>) -> Self {
-        let xacro = Some(settings).filter(|settings| settings.source.xacro.expand_urdf);
-        Srdfs { xacro, files, all: OnceLock::new() }
     }
 }

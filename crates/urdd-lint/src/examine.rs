@@ -15,7 +15,7 @@ use urdd_format::report::{Place, StaleIgnore};
 use urdd_programs::Fault;
 use urdd_source::{Original, Repaired, SourceMeshes, mend_xml};
 use urdd_validate::examine_urdf;
-use urdd_xml::{Document, Xml};
+use urdd_xml::Xml;
 
 use crate::beside::SrdfFile;
 use crate::programs::Asked;
@@ -89,7 +89,7 @@ pub fn examined(
         None => Vec::new(),
     };
     let source = job.source(&examined.checks);
-    let subject = job.subject(document, &source);
+    let subject = Subject::new(name, folder, document, source.as_ref(), settings, &srdfs);
     let is_mended = of_mended.is_some();
     job.run(&subject, &mut examined.checks, |checks| {
         let Some(mut asked) = job.ask() else { return Vec::new() };
@@ -116,7 +116,7 @@ pub fn examined(
             effect.cause.1.line += mended.first_line;
         }
     }
-    for srdf in subject.srdfs.all.get().into_iter().flatten() {
+    for srdf in subject.srdfs.get().into_iter().flatten() {
         let file = srdf.file;
         if let Some(trail) = &file.trail {
             let expansion = (file.text.as_str(), trail, file.path.as_path(), file.shown.as_str());
@@ -134,23 +134,12 @@ pub fn examined(
     (examined, stale)
 }
 
-impl<'a> Job<'a> {
+impl Job<'_> {
     /// The robot with its mesh files, or why there is none. `checks` are those of the validator.
     fn source(self, checks: &[Check]) -> Result<SourceMeshes, SkipReason> {
         let settings = &self.settings.source;
         let source = SourceMeshes::of_xml(self.xml, self.name, self.folder, settings);
         source.map_err(|error| refusal(&error, checks))
-    }
-
-    fn subject<'d>(
-        self,
-        document: &'d Document<'d>,
-        source: &'d Result<SourceMeshes, SkipReason>,
-    ) -> Subject<'d>
-    where
-        'a: 'd,
-    {
-        Subject::new(self.name, self.folder, document, source.as_ref(), self.settings, self.srdfs)
     }
 
     /// Asks the programs; not about files beyond the limits of XML.
@@ -209,7 +198,9 @@ impl<'a> Job<'a> {
         let document = xml.document().ok()?;
         let mut checks = examine_urdf(xml, self.name).checks;
         let source = job.source(&checks);
-        let subject = job.subject(document, &source);
+        let (folder, settings) = (self.folder, self.settings);
+        let source = source.as_ref();
+        let subject = Subject::new(self.name, folder, document, source, settings, self.srdfs);
         job.run(&subject, &mut checks, |checks| {
             job.ask().map_or_else(Vec::new, |mut asked| attach(&subject, &mut asked, checks, &[]))
         });

@@ -26,7 +26,6 @@ const MAX_COMPARED: usize = 10_000_000;
 /// Formats that are read here. Nobody reads all of the others.
 const READ: [&str; 5] = ["stl", "dae", "obj", "gltf", "glb"];
 
-/// Whether a file's name is that of a format that is read here.
 pub fn is_read_here(file: &Path) -> bool {
     let ending = file.extension().unwrap_or_default();
     READ.contains(&ending.to_string_lossy().to_lowercase().as_str())
@@ -51,7 +50,6 @@ pub type ReadMesh = Result<MeshFacts, String>;
 
 #[derive(Debug)]
 pub struct RobotGeometry {
-    /// The shapes of each link.
     pub links: Vec<Shapes>,
     /// The shapes of each body, by its topmost link.
     pub bodies: BTreeMap<usize, Shapes>,
@@ -64,9 +62,7 @@ pub struct RobotGeometry {
 /// A mesh of the robot whose file is there.
 #[derive(Debug, Clone, Copy)]
 pub struct NamedMesh<'a> {
-    /// Whether a visual or a collision element has it.
     pub kind: GeometryKind,
-    /// The factors of the element.
     pub scale: [f64; 3],
     pub file: &'a Path,
     /// What it holds, or why it cannot be read.
@@ -82,10 +78,8 @@ pub struct Shapes {
     pub is_partial: bool,
 }
 
-/// A visual or collision element's shape.
 #[derive(Debug, Clone)]
 pub struct Shape {
-    /// Whether a visual or a collision element has it.
     pub kind: GeometryKind,
     /// Whether it is of a glTF, which some programs turn from y-up to z-up and others do not.
     pub is_turned: bool,
@@ -144,7 +138,6 @@ impl Shapes {
         self.shapes.iter().flat_map(Shape::corners)
     }
 
-    /// The corners of the shapes of one kind.
     pub fn corners_of(&self, kind: GeometryKind) -> impl Iterator<Item = Vector3<f64>> {
         let of_kind = self.shapes.iter().filter(move |shape| shape.kind == kind);
         of_kind.flat_map(Shape::corners)

@@ -131,7 +131,6 @@ fn corners(points: impl Iterator<Item = Vector3<f64>>) -> Vec<[f64; 3]> {
     kept
 }
 
-/// Corners of the polygon around a circle.
 const SIDES: usize = 32;
 /// Circles of a sphere.
 const RINGS: usize = 17;
@@ -145,13 +144,11 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// Of a convex hull's corners.
     pub fn of(corners: Vec<Vector3<f64>>) -> Arc<Self> {
         let hull = Hull::of(corners.iter().copied());
         Arc::new(Solid { corners, hull })
     }
 
-    /// Of a convex hull.
     pub fn of_hull(hull: ConvexHull) -> Arc<Self> {
         let corners = hull.mesh().vertices.iter().copied().map(Vector3::from).collect();
         Arc::new(Solid { corners, hull: Hull::from(hull) })
@@ -196,7 +193,6 @@ fn sphere() -> Vec<Vector3<f64>> {
     rings.flat_map(ring).collect()
 }
 
-/// Corners of a polygon around a circle.
 fn circle(radius: f64) -> impl Iterator<Item = (f64, f64)> {
     let out = radius / (PI / SIDES as f64).cos();
     (0..SIDES).map(move |side| {

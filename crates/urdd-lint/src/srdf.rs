@@ -28,11 +28,11 @@ const MOVEIT: &str = "moveit_config";
 /// package before others; or else the only one whose robot has the robot's name, or the only one there is, beside the only URDF,
 /// if most of the names in it are the URDF's. No other URDF beside this one has its file's name.
 pub fn of_robot<'s, 'a>(urdf: &'s Subject<'a>) -> &'s [Srdf<'a>] {
-    urdf.srdfs.all.get_or_init(|| read(urdf))
+    urdf.srdfs.get_or_init(|| read(urdf))
 }
 
 fn read<'a>(urdf: &Subject<'a>) -> Vec<Srdf<'a>> {
-    let all = urdf.srdfs.files.get_or_init(|| candidates(urdf));
+    let all = urdf.srdf_files.get_or_init(|| candidates(urdf));
     let has_stem = all.iter().any(|one| one.has_stem);
     let has_own = all.iter().any(|one| one.has_stem && one.is_own);
     let is_urdf = |name: &String| FileType::Urdf.is_of(Path::new(name));
@@ -44,7 +44,9 @@ fn read<'a>(urdf: &Subject<'a>) -> Vec<Srdf<'a>> {
         true => one.file.has_stem && !names_another(urdf, one) && is_of(urdf, one, true),
         false => {
             let is_near = is_only && one.file.is_own;
-            !is_of_another_urdf(urdf, &one.file.path) && is_of(urdf, one, is_near)
+            let own = stem(&one.file.path);
+            // No other URDF beside this one has its name.
+            !urdfs(urdf).any(|name| stem(Path::new(&name)) == own) && is_of(urdf, one, is_near)
         }
     });
     if !has_stem && found.len() > 1 {
@@ -98,12 +100,6 @@ fn names_another(urdf: &Subject, one: &Srdf) -> bool {
         && urdfs(urdf).any(|file| stem(Path::new(&file)) == wanted)
 }
 
-/// Whether a URDF beside this one has an SRDF's name.
-fn is_of_another_urdf(urdf: &Subject, srdf: &Path) -> bool {
-    let stem = stem(srdf);
-    urdfs(urdf).any(|name| self::stem(Path::new(&name)) == stem)
-}
-
 /// The names of the URDFs in the URDF's folder.
 fn urdfs(urdf: &Subject) -> impl Iterator<Item = String> {
     let is_urdf = |name: &String| {
@@ -135,7 +131,8 @@ fn candidates(urdf: &Subject) -> Vec<SrdfFile> {
             let mut text = String::from_utf8_lossy(&bytes).into_owned();
             let mut trail = None;
             if FileType::Xacro.is_of(&path) {
-                if expanded == MAX_EXPANDED || !has_name(&text) {
+                let may_run = urdf.settings.source.xacro.expand_urdf && expanded < MAX_EXPANDED;
+                if !may_run || !has_name(&text) {
                     continue;
                 }
                 expanded += 1;
@@ -149,20 +146,18 @@ fn candidates(urdf: &Subject) -> Vec<SrdfFile> {
     found
 }
 
-/// What xacro makes of an SRDF with these arguments, if it may run; `None` where it makes nothing: LNT063 is about what is
-/// read.
+/// What xacro makes of an SRDF with these arguments; `None` where it makes nothing: LNT063 is about what is read.
 fn expand(urdf: &Subject, path: &Path, arguments: &[String]) -> Option<(String, Option<Trail>)> {
-    let settings = urdf.srdfs.xacro?;
-    let source = settings.source.with_declared(arguments);
-    let made = read_source(path, &source, &settings.report.cancellation).ok()?;
+    let source = urdf.settings.source.with_declared(arguments);
+    let made = read_source(path, &source, &urdf.settings.report.cancellation).ok()?;
     Some((made.text, made.trail))
 }
 
 /// The defaults of the URDF's arguments: an SRDF that takes the same ones is of the same robot.
 fn defaults(urdf: &Subject) -> Vec<String> {
     let name = Path::new(urdf.file).file_name();
-    let Some((name, settings)) = name.zip(urdf.srdfs.xacro) else { return Vec::new() };
-    let all = arguments(&urdf.folder.join(name), &settings.source).unwrap_or_default();
+    let Some(name) = name else { return Vec::new() };
+    let all = arguments(&urdf.folder.join(name), &urdf.settings.source).unwrap_or_default();
     let is_plain = |text: &String| !text.contains('$');
     let plain = all.into_iter().filter_map(|one| Some((one.name, one.default.filter(is_plain)?)));
     plain.map(|(name, default)| format!("{name}:={default}")).collect()

@@ -20,7 +20,7 @@ use urdd_source::{Files, SourceMesh, SourceMeshes};
 use urdd_xml::element::name;
 use urdd_xml::{Document, Node};
 
-use crate::beside::{Closing, NamedFile, SrdfFile, Srdfs};
+use crate::beside::{Closing, NamedFile, Srdf, SrdfFile};
 use crate::geometry::{Bodies, NamedMesh, RobotGeometry};
 use crate::settings::{LintSettings, WITHOUT_MESHES, refused};
 use crate::vocabulary::{Names, Unknown, What, child, kind, named, numbers, unknown};
@@ -31,27 +31,23 @@ pub struct Subject<'a> {
     pub file: &'a str,
     /// The folder that relative mesh names refer to.
     pub folder: &'a Path,
-    /// Where files are.
     pub files: &'a Files,
     /// The text: of the file, or what xacro made of it.
     pub text: &'a str,
-    /// `<robot>`.
     pub root: Node<'a, 'a>,
-    /// Each `<link>`, in order.
     pub links: Vec<Node<'a, 'a>>,
-    /// Each `<joint>` of the robot, in order.
     pub joints: Vec<Node<'a, 'a>>,
-    /// Its SRDFs.
-    pub srdfs: Srdfs<'a>,
-    /// What is said of its loops.
+    /// The files that may be SRDFs of it, read on first use.
+    pub srdf_files: &'a OnceLock<Vec<SrdfFile>>,
+    /// Those that are, found on first use.
+    pub srdfs: OnceLock<Vec<Srdf<'a>>>,
+    pub settings: &'a LintSettings,
     pub closing: Closing<'a>,
     lines: LineIndex<'a>,
     source: Result<&'a SourceMeshes, SkipReason>,
     robot: OnceLock<(Robot, Option<Bodies>)>,
     geometry: OnceLock<RobotGeometry>,
     unknown: OnceLock<Vec<Unknown<'a>>>,
-    /// Whether no mesh file is read.
-    without_meshes: bool,
     elements: OnceLock<Vec<Node<'a, 'a>>>,
     shapes: OnceLock<Vec<[Vec<Node<'a, 'a>>; 2]>>,
     joint_names: OnceLock<Names<'a>>,
@@ -60,7 +56,7 @@ pub struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// A URDF. `source` is the same text as the reader of `generate` understands it, or why that reader refuses it; `srdfs`
+    /// A URDF. `source` is the same text as the reader of `generate` understands it, or why that reader refuses it; `srdf_files`
     /// is filled with the SRDFs around it where a rule asks for them.
     pub fn new(
         file: &'a str,
@@ -68,7 +64,7 @@ impl<'a> Subject<'a> {
         document: &'a Document<'a>,
         source: Result<&'a SourceMeshes, &SkipReason>,
         settings: &'a LintSettings,
-        srdfs: &'a OnceLock<Vec<SrdfFile>>,
+        srdf_files: &'a OnceLock<Vec<SrdfFile>>,
     ) -> Self {
         let root = document.root_element();
         let [links, joints] = ["link", "joint"].map(|name| named(root, name).collect::<Vec<_>>());
@@ -89,8 +85,9 @@ impl<'a> Subject<'a> {
             root,
             lines: LineIndex::new(document.input_text()),
             source,
-            without_meshes: settings.without_meshes,
-            srdfs: Srdfs::new(settings, srdfs),
+            srdf_files,
+            srdfs: OnceLock::new(),
+            settings,
             closing,
             links,
             joints,
@@ -102,11 +99,6 @@ impl<'a> Subject<'a> {
             joint_names: OnceLock::new(),
             programs: OnceLock::new(),
         }
-    }
-
-    /// Skips the rule if no mesh file is read. For rules that read mesh files other than through [`Subject::geometry`].
-    pub fn reads_meshes(&self, findings: &mut Findings) -> Option<()> {
-        if self.without_meshes { findings.skip(WITHOUT_MESHES) } else { Some(()) }
     }
 
     /// The robot with its mesh files. Skips the rule if the URDF describes none.
@@ -133,7 +125,9 @@ impl<'a> Subject<'a> {
     /// The shapes of links and bodies, read on first use. Skips the rule as [`Self::bodies`] does, and if no mesh file is read.
     /// Links with meshes that could not be read are not verified by it.
     pub fn geometry(&self, findings: &mut Findings) -> Option<&RobotGeometry> {
-        self.reads_meshes(findings)?;
+        if self.settings.without_meshes {
+            findings.skip(WITHOUT_MESHES)?;
+        }
         let source = self.source(findings)?;
         let (robot, bodies) = self.bodies(findings)?;
         let read = || RobotGeometry::read(source, robot, bodies);
@@ -197,10 +191,8 @@ impl<'a> Subject<'a> {
         let (robot, _) = self.bodies(findings)?;
         let offsets = robot.joints.iter().map(|joint| {
             let range = joint.limit.filter(|_| joint.joint_type == JointType::Prismatic);
-            let range = range.map_or(0.0, |limit| {
-                let ends = [limit.lower, limit.upper].map(|end| end.unwrap_or(0.0).abs());
-                ends[0].max(ends[1])
-            });
+            let ends = range.into_iter().flat_map(|limit| [limit.lower, limit.upper]);
+            let range = ends.flatten().map(f64::abs).fold(0.0, f64::max);
             Vector3::from(joint.origin.xyz).norm().max(range)
         });
         Some(TIMES * offsets.fold(OFFSET, f64::max))
@@ -221,8 +213,7 @@ impl<'a> Subject<'a> {
             self.links.iter().map(of).collect()
         });
         let element = shapes.get(mesh.link)?[mesh.geometry as usize].get(mesh.element)?;
-        let mut inside = element.descendants();
-        inside.find(|node| node.tag_name().name() == "mesh")
+        element.descendants().find(|node| node.tag_name().name() == "mesh")
     }
 
     pub fn joints_of(&self, types: &[&str]) -> impl Iterator<Item = Node<'a, 'a>> {
@@ -258,8 +249,8 @@ impl<'a> Subject<'a> {
         let mut seen = HashSet::new();
         let named = named.filter_map(|node| {
             let name = node.attribute("filename")?;
-            let file = NamedFile { node, name };
-            seen.insert((part(node).map(|part| part.id()), name)).then_some(file)
+            let is_new = seen.insert((part(node).map(|part| part.id()), name));
+            is_new.then_some(NamedFile { node, name })
         });
         named.collect()
     }
@@ -281,7 +272,6 @@ impl<'a> Subject<'a> {
         self.source.as_ref().is_ok_and(|source| source.find(name).is_ok())
     }
 
-    /// The line and column of an offset.
     pub fn position(&self, offset: usize) -> Position {
         self.lines.position(offset)
     }
@@ -293,8 +283,7 @@ impl<'a> Subject<'a> {
             name(*node).starts_with("xacro:")
                 || attributes.any(|one| one.value().contains("${") || one.value().contains("$("))
         };
-        let mut elements = self.root.descendants().filter(Node::is_element);
-        elements.find(|node| is_macro(node))
+        self.root.descendants().find(|node| node.is_element() && is_macro(node))
     }
 
     /// Reports an element whose `name` is not that of a joint.
@@ -342,7 +331,6 @@ impl<'a> Subject<'a> {
         self.placed(node, start, message)
     }
 
-    /// A finding about something that URDF does not define.
     pub fn at_unknown(&self, one: &Unknown<'a>, message: impl Into<String>) -> Finding {
         match one.what {
             What::Element => self.at(one.node, message),
@@ -350,7 +338,6 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// A finding about what is at an offset.
     pub fn at_offset(&self, offset: usize, message: impl Into<String>) -> Finding {
         match self.element(offset) {
             Some(node) => self.placed(node, offset, message),

@@ -53,12 +53,15 @@ pub fn mark(checks: &mut [Check]) {
     }
 }
 
+/// Maximum number of names that are mended each by itself.
+const MOST_TRIED: usize = 8;
+
 /// Marks the findings that go away when misspelt names are mended. `again` runs the rules on another text; `None` if it is
-/// no XML.
+/// no XML. A finding follows from the name that takes it away by itself: of those in its link or joint, or else of all.
 pub fn mark_misspelt(
     urdf: &Subject,
     checks: &mut [Check],
-    again: impl FnOnce(&str) -> Option<Vec<Check>>,
+    again: impl Fn(&str) -> Option<Vec<Check>>,
 ) {
     let misspelt: HashSet<Position> =
         reported(checks, Code::LNT040).filter_map(|(place, _)| at(place)).collect();
@@ -67,21 +70,63 @@ pub fn mark_misspelt(
     if misspellings.is_empty() {
         return;
     }
-    let mut edits: Vec<Edit> = misspellings.iter().flat_map(|one| one.edits.clone()).collect();
-    let mended = apply(urdf.text, edits.clone());
-    let Some(others) = again(&mended) else {
-        return;
+    let gone = |meant: Option<&str>| {
+        let its = misspellings.iter().filter(|one| meant.is_none_or(|meant| one.meant == meant));
+        mended(urdf.text, checks, its.flat_map(|one| one.edits.clone()).collect(), &again)
     };
-    let (from, to) = (LineIndex::new(urdf.text), LineIndex::new(&mended));
+    // The first of each meaning, in each link or joint and in all.
+    let mut firsts: HashMap<Option<&str>, Vec<&Misspelling>> = HashMap::new();
+    for one in &misspellings {
+        let own = one.subject.as_deref();
+        for part in own.map(Some).into_iter().chain([None]) {
+            let firsts = firsts.entry(part).or_default();
+            if firsts.iter().all(|first| first.meant != one.meant) {
+                firsts.push(one);
+            }
+        }
+    }
+    let all = firsts.get(&None).map(Vec::as_slice).unwrap_or_default();
+    let tried = all.iter().take(if all.len() > 1 { MOST_TRIED } else { 0 });
+    let by_itself: HashMap<&str, HashSet<(Code, Position, &str)>> = tried
+        .map(|one| {
+            let keys = gone(Some(one.meant)).into_iter();
+            (one.meant, keys.map(|(code, _, at, message)| (code, at, message)).collect())
+        })
+        .collect();
+    let effect = |(code, place, at, message): (Code, &Place, Position, &str)| {
+        let part = place.subject.as_deref().filter(|part| firsts.contains_key(&Some(part)));
+        let near = firsts.get(&part)?;
+        let takes = |one: &&&Misspelling| {
+            by_itself.get(one.meant).is_some_and(|gone| gone.contains(&(code, at, message)))
+        };
+        let cause = (Code::LNT040, near.iter().find(takes).or(near.first())?.at);
+        Some((code, FollowsFrom { at, cause, message: message.to_owned() }))
+    };
+    let effects: Vec<(Code, FollowsFrom)> = gone(None).into_iter().filter_map(effect).collect();
+    for (code, effect) in effects {
+        if let Some(check) = checks.iter_mut().find(|check| check.rule.code == code) {
+            check.effects.push(effect);
+        }
+    }
+}
+
+/// The findings that are gone where a text is mended, but for those of LNT040: rule, place and what they say.
+fn mended<'c>(
+    text: &str,
+    checks: &'c [Check],
+    mut edits: Vec<Edit>,
+    again: impl Fn(&str) -> Option<Vec<Check>>,
+) -> Vec<(Code, &'c Place, Position, &'c str)> {
+    let mended = apply(text, edits.clone());
+    let Some(others) = again(&mended) else { return Vec::new() };
+    let (from, to) = (LineIndex::new(text), LineIndex::new(&mended));
     // How far edits up to each place move what follows.
     let mut moves: Vec<(usize, isize)> = Vec::new();
     edits.sort_by_key(|edit| edit.range.start);
     for edit in &edits {
         let before = moves.last().map_or(0, |(_, by)| *by);
-        moves.push((
-            edit.range.start,
-            before + edit.text.len() as isize - edit.range.len() as isize,
-        ));
+        let by = edit.text.len() as isize - edit.range.len() as isize;
+        moves.push((edit.range.start, before + by));
     }
     let moved = |at| {
         let offset = from.offset(at)?;
@@ -89,21 +134,15 @@ pub fn mark_misspelt(
         let by = edits_before.checked_sub(1).map_or(0, |last| moves[last].1);
         Some(to.position(offset.checked_add_signed(by)?))
     };
-    let causes = Causes::new(&misspellings);
-    for check in checks.iter_mut().filter(|check| check.rule.code != Code::LNT040) {
+    let mut all = Vec::new();
+    for check in checks.iter().filter(|check| check.rule.code != Code::LNT040) {
         let mut others = others.iter();
         let other = others.find(|other| other.rule.code == check.rule.code);
         let ran = |other: &&Check| matches!(other.outcome, Outcome::Passed | Outcome::Failed);
-        if let Some(other) = other.filter(ran) {
-            let effect = |(place, at, message): (&Place, Position, String)| FollowsFrom {
-                at,
-                cause: (Code::LNT040, causes.of(place, &message)),
-                message,
-            };
-            let effects = gone(check, other, moved).into_iter().map(effect);
-            check.effects.extend(effects.collect::<Vec<_>>());
-        }
+        let gone = other.filter(ran).map(|other| gone(check, other, moved)).unwrap_or_default();
+        all.extend(gone.into_iter().map(|(place, at, said)| (check.rule.code, place, at, said)));
     }
+    all
 }
 
 /// Marks the findings of a rule that follow from those of another with the same `key`.
@@ -164,7 +203,7 @@ fn gone<'c>(
     check: &'c Check,
     other: &Check,
     moved: impl Fn(Position) -> Option<Position>,
-) -> Vec<(&'c Place, Position, String)> {
+) -> Vec<(&'c Place, Position, &'c str)> {
     let left: HashSet<(Position, &str)> =
         other.said().filter_map(|(place, message)| Some((at(place)?, message))).collect();
     let mut fewer: HashMap<Option<&str>, usize> = HashMap::new();
@@ -183,38 +222,10 @@ fn gone<'c>(
         let count = fewer.entry(place.subject.as_deref()).or_default();
         if *count > 0 && !left.contains(&(there, message)) {
             *count -= 1;
-            gone.push((place, here, message.to_owned()));
+            gone.push((place, here, message));
         }
     }
     gone
-}
-
-/// The misspellings that findings follow from.
-struct Causes<'m>(HashMap<Option<&'m str>, Vec<&'m Misspelling>>);
-
-impl<'m> Causes<'m> {
-    /// The first of each meaning, in each link or joint and in all.
-    fn new(misspellings: &'m [Misspelling]) -> Self {
-        let mut firsts: HashMap<_, Vec<&Misspelling>> = HashMap::new();
-        for one in misspellings {
-            let own = one.subject.as_deref();
-            for part in own.map(Some).into_iter().chain([None]) {
-                let firsts = firsts.entry(part).or_default();
-                if firsts.iter().all(|first| first.meant != one.meant) {
-                    firsts.push(one);
-                }
-            }
-        }
-        Causes(firsts)
-    }
-
-    /// One in the same link or joint, if there is one; and one whose right name the finding mentions.
-    fn of(&self, place: &Place, message: &str) -> Position {
-        let near = place.subject.as_deref().and_then(|part| self.0.get(&Some(part)));
-        let all = near.or_else(|| self.0.get(&None)).map(Vec::as_slice).unwrap_or_default();
-        let best = all.iter().find(|one| message.contains(one.meant)).or(all.first());
-        best.map_or(Position { line: 1, column: 1 }, |best| best.at)
-    }
 }
 
 /// Maximum number of comments and texts between a comment and its element.
@@ -224,7 +235,6 @@ struct Allow {
     written: String,
     /// `None`: there is no such rule.
     codes: Option<Codes>,
-    /// The comment's line.
     line: u32,
     /// The first and the last position of what it stands for.
     from: Position,

@@ -7,7 +7,7 @@ use strsim::osa_distance;
 use urdd_format::short;
 use urdd_xml::Node;
 use urdd_xml::element::children;
-pub use urdd_xml::vocabulary::{CLOSED, KNOWN, Known, of};
+pub use urdd_xml::element::{CLOSED, KNOWN, Known, of};
 
 /// The joint types that have an axis.
 pub const WITH_AXIS: [&str; 4] = ["revolute", "continuous", "prismatic", "planar"];

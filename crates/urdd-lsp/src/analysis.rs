@@ -34,13 +34,11 @@ pub struct Analysis {
     pub programs: Vec<String>,
 }
 
-/// The rules that were not run.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub enum Postponed {
     /// Every rule was run.
     #[default]
     None,
-    /// These.
     Codes(BTreeSet<&'static str>),
     /// All that [`Depth::Files`] finds.
     All,

@@ -12,7 +12,6 @@ use urdd_format::loops::LoopKind;
 use urdd_format::urdf::JointType;
 use urdd_lint::vocabulary::of;
 
-/// What can be written at a position.
 pub fn completion(snapshot: &Snapshot, at: Position) -> Vec<CompletionItem> {
     if !snapshot.kind.is_xml() || snapshot.is_too_large() {
         return Vec::new();
@@ -41,7 +40,7 @@ pub fn completion(snapshot: &Snapshot, at: Position) -> Vec<CompletionItem> {
                 Some(parent) => {
                     let around = markup.elements[element].parent;
                     let around = around.and_then(|parent| markup.parent_name(text, parent));
-                    known_children(around.unwrap_or_default(), parent)
+                    known(around.unwrap_or_default(), parent)[1]
                 }
             };
             let range = markup.elements[element].name.clone();
@@ -164,8 +163,11 @@ fn attributes(
         .filter(|attribute| current != Some(attribute))
         .map(|attribute| &text[attribute.name.clone()])
         .collect();
-    let free = known_attributes(parent, markup.name(text, element)).into_iter();
-    let free = free.filter(|name| !written.contains(name));
+    let name = markup.name(text, element);
+    // A declaration that only xacro needs.
+    let xacro = (name == "robot").then_some("xmlns:xacro");
+    let [attributes, _] = known(parent, name);
+    let free = attributes.iter().copied().chain(xacro).filter(|name| !written.contains(name));
     free.map(|name| {
         let new = if has_value { name.to_owned() } else { format!("{name}=\"\"") };
         item(snapshot, &range, name, new, CompletionItemKind::PROPERTY, None)
@@ -193,25 +195,10 @@ const WORDS: &[Word] = &[
     ("coupling", "ratio", &["value"], &[]),
 ];
 
-/// The attributes of an element in another one.
-fn known_attributes(parent: &str, name: &str) -> Vec<&'static str> {
-    let attributes = match known(parent, name) {
-        Some((_, _, attributes, _)) => attributes,
-        None => of(name).map_or(&[][..], |known| known.attributes),
-    };
-    // A declaration that only xacro needs.
-    let xacro = (name == "robot").then_some("xmlns:xacro");
-    attributes.iter().copied().chain(xacro).collect()
-}
-
-/// What an element in another one contains.
-fn known_children(parent: &str, name: &str) -> &'static [&'static str] {
-    match known(parent, name) {
-        Some((.., children)) => children,
-        None => of(name).map_or(&[][..], |known| known.children),
+/// The attributes of an element in another one, and what it contains.
+fn known(parent: &str, name: &str) -> [&'static [&'static str]; 2] {
+    match WORDS.iter().find(|word| (word.0, word.1) == (parent, name)) {
+        Some((_, _, attributes, children)) => [attributes, children],
+        None => of(name).map_or([&[], &[]], |known| [known.attributes, known.children]),
     }
-}
-
-fn known(parent: &str, name: &str) -> Option<&'static Word> {
-    WORDS.iter().find(|word| (word.0, word.1) == (parent, name))
 }

@@ -8,8 +8,7 @@ use std::path::Path;
 use lsp_types::{
     CodeAction, CodeActionKind, CodeActionOrCommand, CodeActionParams, Diagnostic,
     DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString, OneOf,
-    OptionalVersionedTextDocumentIdentifier, Position, Range, TextDocumentEdit, TextEdit,
-    WorkspaceEdit,
+    OptionalVersionedTextDocumentIdentifier, Position, TextDocumentEdit, TextEdit, WorkspaceEdit,
 };
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::examined::Examined;
@@ -24,7 +23,6 @@ use crate::uri;
 /// What diagnostics name as their source.
 pub const SOURCE: &str = "urdd";
 
-/// A finding at one place.
 #[derive(Debug, Clone)]
 pub struct Found {
     pub diagnostic: Diagnostic,
@@ -32,7 +30,6 @@ pub struct Found {
     pub repairs: Vec<Repair>,
 }
 
-/// A change that mends a finding.
 #[derive(Debug, Clone)]
 pub struct Repair {
     pub title: String,
@@ -301,7 +298,7 @@ fn all_safe(found: &[Found]) -> Vec<Vec<TextEdit>> {
 }
 
 /// Whether two ranges overlap, or touch.
-fn touch(a: Range, b: Range) -> bool {
+fn touch(a: lsp_types::Range, b: lsp_types::Range) -> bool {
     a.start <= b.end && b.start <= a.end
 }
 

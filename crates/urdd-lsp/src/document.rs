@@ -113,7 +113,7 @@ impl Snapshot {
             uri: self.uri.clone(),
             path: self.path.clone(),
             folder: self.folder.clone(),
-            kind: if self.kind.is_of_urdd() { self.kind } else { of_text() },
+            kind: if matches!(self.kind, FileKind::Urdd { .. }) { self.kind } else { of_text() },
             language: self.language.clone(),
             version,
             text,
@@ -212,7 +212,6 @@ impl RobotModel {
     }
 }
 
-/// What a document is.
 #[derive(Clone, Copy)]
 pub enum FileKind {
     Urdf,
@@ -255,16 +254,11 @@ impl FileKind {
         }
     }
 
-    pub fn is_of_urdd(self) -> bool {
-        matches!(self, FileKind::Urdd { .. })
-    }
-
     pub fn is_xml(self) -> bool {
         matches!(self, FileKind::Urdf | FileKind::Xacro)
     }
 }
 
-/// The schema of a document.
 #[derive(Clone, Copy)]
 pub struct Schema {
     /// The document that it is of.

@@ -78,7 +78,9 @@ pub fn escaped(value: &str) -> String {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// The name in a start tag.
-    TagName { element: usize },
+    TagName {
+        element: usize,
+    },
     /// In an end tag, or where one is typed.
     EndTag {
         /// The element to close.
@@ -90,8 +92,10 @@ pub enum Place {
         /// Index of the attribute; `None` at a blank.
         attribute: Option<usize>,
     },
-    /// The value of an attribute.
-    Value { element: usize, attribute: usize },
+    Value {
+        element: usize,
+        attribute: usize,
+    },
     /// Between tags.
     Content {
         /// The innermost element.
@@ -100,7 +104,6 @@ pub enum Place {
 }
 
 impl Place {
-    /// The element.
     pub fn element(self) -> Option<usize> {
         match self {
             Place::TagName { element }
@@ -113,7 +116,6 @@ impl Place {
 }
 
 impl Markup {
-    /// What is at an offset.
     pub fn place(&self, text: &str, offset: usize) -> Place {
         let after = self.elements.partition_point(|one| one.tag.start < offset);
         let Some(last) = after.checked_sub(1) else {
@@ -163,7 +165,6 @@ impl Markup {
     }
 }
 
-/// An attribute.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Attribute {
     /// The bytes of its name.
@@ -172,7 +173,6 @@ pub struct Attribute {
     pub value: Range<usize>,
 }
 
-/// An element.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Element {
     /// The bytes of its name; empty after a lone `<`.
@@ -182,7 +182,6 @@ pub struct Element {
     /// The end of the element, with its end tag.
     pub end: usize,
     pub attributes: Vec<Attribute>,
-    /// Index of the element that contains it.
     pub parent: Option<usize>,
     /// Whether the start tag has its `>`.
     pub is_finished: bool,

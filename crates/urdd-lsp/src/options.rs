@@ -15,16 +15,13 @@ const DEBOUNCE: Duration = Duration::from_millis(150);
 /// The longest time that can be set.
 const LONGEST_DEBOUNCE: u64 = 10_000;
 
-/// What the user sets.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Options {
     /// Whether a xacro file is expanded when it is saved. That runs code that the file contains.
     pub xacro: bool,
-    /// Folders with ROS packages.
     pub package_paths: Vec<PathBuf>,
     /// The baseline, whose findings are not shown, if the user names one.
     pub baseline: Option<PathBuf>,
-    /// How long after a change findings are computed.
     pub debounce: Duration,
 }
 

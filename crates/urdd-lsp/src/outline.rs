@@ -4,19 +4,15 @@ use std::collections::HashMap;
 
 use crate::markup::Markup;
 
-/// An element with a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Named {
     pub name: String,
-    /// Its index.
     pub element: usize,
 }
 
-/// A joint.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Joint {
     pub name: String,
-    /// Its index.
     pub element: usize,
     pub kind: String,
     /// Name of the link that it moves with; empty if it is not written yet.
@@ -28,9 +24,7 @@ pub struct Joint {
 /// What a text defines.
 #[derive(Debug, Default)]
 pub struct Outline {
-    /// The links, in order.
     pub links: Vec<Named>,
-    /// The joints, in order.
     pub joints: Vec<Joint>,
     /// Where each material is defined: those of the robot before those of single shapes, each name once.
     pub materials: Vec<Named>,

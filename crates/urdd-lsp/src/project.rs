@@ -16,7 +16,6 @@ use urdd_source::robots_of;
 
 /// The settings that count for a document.
 pub struct Project {
-    /// How it is linted.
     pub settings: LintSettings,
     /// What is wrong with the settings, shown in the document.
     pub faults: Vec<Found>,

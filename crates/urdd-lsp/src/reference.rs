@@ -3,13 +3,12 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use lsp_types::{Location, Position, Range};
+use lsp_types::{Location, Position};
 
 use crate::document::Snapshot;
 use crate::markup::{Attribute, Markup, Place, unescaped};
 use crate::uri;
 
-/// What a place names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Found {
     /// What it is; links and joints are told apart where the text has a link of the name.
@@ -25,7 +24,6 @@ pub struct Found {
 pub enum Names {
     Links,
     Joints,
-    /// Links and joints.
     Both,
     Materials,
     Meshes,
@@ -101,7 +99,7 @@ fn mesh(snapshot: &Snapshot, name: &str) -> Option<Location> {
         // A xacro file, or a URDF that describes no robot yet: only plain names are looked for.
         None => plain(&snapshot.folder, name),
     };
-    Some(Location { uri: uri::of_path(&file?)?, range: Range::default() })
+    Some(Location { uri: uri::of_path(&file?)?, range: lsp_types::Range::default() })
 }
 
 /// The nearest folder above a file that was not found, below the URDF's package.

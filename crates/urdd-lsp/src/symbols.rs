@@ -27,7 +27,6 @@ pub fn symbols(snapshot: &Snapshot, is_nested: bool) -> Option<DocumentSymbolRes
     Some(DocumentSymbolResponse::Flat(flat))
 }
 
-/// A symbol of an element with a name.
 fn symbol(
     snapshot: &Snapshot,
     element: usize,

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::OnceLock;
 
 use lsp_types::{
-    Hover, HoverContents, MarkupContent, MarkupKind, Position, PositionEncodingKind, Range,
+    Hover, HoverContents, MarkupContent, MarkupKind, Position, PositionEncodingKind,
     TextDocumentContentChangeEvent,
 };
 use serde_json::Value;
@@ -45,7 +45,6 @@ impl Encoding {
         }
     }
 
-    /// The units of a character.
     pub fn units(self, c: char) -> usize {
         match self {
             Encoding::Utf8 => c.len_utf8(),
@@ -84,7 +83,6 @@ pub struct Text {
 }
 
 impl Text {
-    /// A text as an editor sent it.
     pub fn new(text: String, encoding: Encoding) -> Self {
         let starts = std::iter::once(0).chain(line_starts(&text, 0)).collect();
         Text { starts, text, encoding, units: OnceLock::new(), scalars: OnceLock::new() }
@@ -170,7 +168,6 @@ impl Text {
         part.end
     }
 
-    /// The editor's range of a range of bytes.
     pub fn range(&self, range: Range<usize>) -> lsp_types::Range {
         lsp_types::Range { start: self.position(range.start), end: self.position(range.end) }
     }
@@ -200,7 +197,6 @@ impl Text {
         line.strip_suffix('\r').unwrap_or(line)
     }
 
-    /// Applies an editor's change.
     pub fn apply(&mut self, change: TextDocumentContentChangeEvent) {
         let Some(range) = change.range else {
             *self = Text::new(change.text, self.encoding);
@@ -243,7 +239,7 @@ fn count(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
 }
 
-pub fn markdown(value: String, range: Option<Range>) -> Hover {
+pub fn markdown(value: String, range: Option<lsp_types::Range>) -> Hover {
     Hover {
         contents: HoverContents::Markup(MarkupContent { kind: MarkupKind::Markdown, value }),
         range,

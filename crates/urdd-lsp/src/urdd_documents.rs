@@ -205,7 +205,6 @@ fn meant<'s>(whole: &'s Value, schema: &'s Value) -> Vec<&'s Value> {
     found
 }
 
-/// The words that a value may be.
 fn values(schema: &Value) -> String {
     if let Some(value) = schema.get("const") {
         return format!("`{value}`");

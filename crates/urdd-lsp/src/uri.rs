@@ -12,7 +12,8 @@ const ESCAPED: &AsciiSet =
 
 /// The path of a document; `None` if it is not a file.
 pub fn path(uri: &str) -> Option<PathBuf> {
-    let rest = strip_scheme(uri)?;
+    let (_, rest) =
+        uri.split_once(':').filter(|(scheme, _)| scheme.eq_ignore_ascii_case("file"))?;
     let rest = rest.split(['?', '#']).next().unwrap_or_default();
     // `file:///path` and `file://localhost/path`.
     let path = match rest.strip_prefix("//") {
@@ -27,11 +28,6 @@ pub fn path(uri: &str) -> Option<PathBuf> {
     let is_drive = cfg!(windows) && path.as_bytes().get(2) == Some(&b':');
     let path = if is_drive { &path[1..] } else { &path };
     (!path.contains('\0')).then(|| PathBuf::from(path))
-}
-
-fn strip_scheme(uri: &str) -> Option<&str> {
-    let (scheme, rest) = uri.split_once(':')?;
-    scheme.eq_ignore_ascii_case("file").then_some(rest)
 }
 
 /// The URI of a file; `None` if its path is relative or not UTF-8.

@@ -139,7 +139,7 @@ impl PinocchioReader<'_> {
         let numbers: Vec<f64> = xyz.unwrap_or("1 0 0").split(' ').map(number).collect();
         let (at, part) = (axis.unwrap_or(joint.node), part.inside("axis"));
         match joint.kind {
-            "planar" if !is_up(&numbers) => {
+            "planar" if !matches!(numbers[..], [0.0, 0.0, z] if z > 0.0) => {
                 let fault = Fault::Other("the plane of a planar joint is always that of x and y");
                 self.effects.read_as(at, part, fault, "0 0 1");
             }
@@ -280,10 +280,6 @@ fn number(text: &str) -> f64 {
 fn has_length(axis: &[f64]) -> bool {
     let square = axis.iter().map(|number| number * number).sum::<f64>();
     square > 0.0 && square.is_finite()
-}
-
-fn is_up(axis: &[f64]) -> bool {
-    matches!(axis, [0.0, 0.0, z] if *z > 0.0)
 }
 
 /// Whether assimp reads a mesh.

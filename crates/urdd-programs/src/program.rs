@@ -4,73 +4,58 @@ use crate::effect::Effects;
 use crate::file::{About, File};
 use crate::{drake, mujoco, pinocchio, pybullet, sdformat, three, urdfdom, usd};
 
-/// A program that reads URDFs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Program {
+/// Lists the programs in the order in which they are reported, each with what its reader says of it.
+macro_rules! programs {
+    ($($(#[$doc:meta])+ $name:ident: $about:path,)+) => {
+        /// A program that reads URDFs.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Program {
+            $($(#[$doc])+ $name,)+
+        }
+
+        impl Program {
+            /// All, in the order in which they are reported.
+            pub const ALL: [Program; 13] = [$(Program::$name),+];
+
+            const fn about(self) -> &'static About {
+                match self {
+                    $(Program::$name => &$about,)+
+                }
+            }
+        }
+    };
+}
+
+programs! {
     /// ROS lyrical and rolling.
-    Urdfdom6,
+    Urdfdom6: urdfdom::SIX,
     /// ROS jazzy and kilted.
-    Urdfdom4,
+    Urdfdom4: urdfdom::FOUR,
     /// ROS noetic, humble and iron.
-    Urdfdom3,
+    Urdfdom3: urdfdom::THREE,
     /// Gazebo Fortress, by libsdformat 12.
-    Fortress,
+    Fortress: sdformat::FORTRESS,
     /// Gazebo Harmonic, by libsdformat 14.
-    Harmonic,
+    Harmonic: sdformat::HARMONIC,
     /// Gazebo Jetty, by libsdformat 16.
-    Jetty,
+    Jetty: sdformat::JETTY,
     /// MuJoCo 4.
-    MuJoCo,
+    MuJoCo: mujoco::FOUR,
     /// MuJoCo 3.3.
-    MuJoCo33,
+    MuJoCo33: mujoco::THREE,
     /// Pinocchio.
-    Pinocchio,
+    Pinocchio: pinocchio::ABOUT,
     /// Drake.
-    Drake,
+    Drake: drake::ABOUT,
     /// `PyBullet`.
-    PyBullet,
+    PyBullet: pybullet::ABOUT,
     /// urdf-usd-converter.
-    Isaac,
+    Isaac: usd::ABOUT,
     /// urdf-loader of three.js.
-    Three,
+    Three: three::ABOUT,
 }
 
 impl Program {
-    /// All, in the order in which they are reported.
-    pub const ALL: [Program; 13] = [
-        Program::Urdfdom6,
-        Program::Urdfdom4,
-        Program::Urdfdom3,
-        Program::Fortress,
-        Program::Harmonic,
-        Program::Jetty,
-        Program::MuJoCo,
-        Program::MuJoCo33,
-        Program::Pinocchio,
-        Program::Drake,
-        Program::PyBullet,
-        Program::Isaac,
-        Program::Three,
-    ];
-
-    const fn about(self) -> &'static About {
-        match self {
-            Program::Urdfdom6 => &urdfdom::SIX,
-            Program::Urdfdom4 => &urdfdom::FOUR,
-            Program::Urdfdom3 => &urdfdom::THREE,
-            Program::Fortress => &sdformat::FORTRESS,
-            Program::Harmonic => &sdformat::HARMONIC,
-            Program::Jetty => &sdformat::JETTY,
-            Program::MuJoCo => &mujoco::FOUR,
-            Program::MuJoCo33 => &mujoco::THREE,
-            Program::Pinocchio => &pinocchio::ABOUT,
-            Program::Drake => &drake::ABOUT,
-            Program::PyBullet => &pybullet::ABOUT,
-            Program::Isaac => &usd::ABOUT,
-            Program::Three => &three::ABOUT,
-        }
-    }
-
     /// The programs that a name in settings stands for: `ros`, `humble`, `isaac`; of `gazebo`, each version.
     pub fn of_name(name: &str) -> impl Iterator<Item = Program> {
         Program::ALL

@@ -40,7 +40,6 @@ impl<'a> Document<'a> {
 
 const TOO_DEEP: &str = "elements are nested too deep";
 
-/// A tree that is being made.
 #[derive(Default)]
 struct Making<'a> {
     tree: Tree<'a>,

@@ -12,24 +12,18 @@ pub fn parse(file: Counted<'_>) -> Parsed<Tree<'_>> {
     tally::count("TinyXML");
     let bytes = file.bytes();
     let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
-    let encoding = bytes.starts_with(b"\xef\xbb\xbf").then_some(Encoding::Utf8);
+    let is_utf8 = bytes.starts_with(b"\xef\xbb\xbf").then_some(true);
     let tree = Tree::default();
-    let mut parser = Parser { bytes: &bytes[..end], at: 0, encoding, tree, open: Vec::new() };
+    let mut parser = Parser { bytes: &bytes[..end], at: 0, is_utf8, tree, open: Vec::new() };
     parser.document()?;
     Ok(parser.tree)
-}
-
-#[derive(PartialEq, Eq)]
-enum Encoding {
-    Utf8,
-    Other,
 }
 
 struct Parser<'a> {
     bytes: &'a [u8],
     at: usize,
     /// None before the first declaration.
-    encoding: Option<Encoding>,
+    is_utf8: Option<bool>,
     tree: Tree<'a>,
     /// The elements that are not closed yet.
     open: Vec<usize>,
@@ -49,7 +43,7 @@ impl<'a> Parser<'a> {
     }
 
     fn is_utf8(&self) -> bool {
-        self.encoding == Some(Encoding::Utf8)
+        self.is_utf8 == Some(true)
     }
 
     /// Skips white space, and byte order marks in UTF-8. Returns the next byte.
@@ -139,11 +133,9 @@ impl<'a> Parser<'a> {
                 self.at += self.rest().iter().take_while(is_inside).count();
             }
         }
-        if self.encoding.is_none() {
-            let name = encoding.to_ascii_lowercase();
-            let is_utf8 = name.is_empty() || name.starts_with("utf-8") || name.starts_with("utf8");
-            self.encoding = Some(if is_utf8 { Encoding::Utf8 } else { Encoding::Other });
-        }
+        let name = encoding.to_ascii_lowercase();
+        let is_utf8 = name.is_empty() || name.starts_with("utf-8") || name.starts_with("utf8");
+        self.is_utf8.get_or_insert(is_utf8);
         Ok(())
     }
 

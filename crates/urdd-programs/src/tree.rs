@@ -10,7 +10,6 @@ pub type Parsed<T> = Result<T, Malformed>;
 /// Why a text is refused that a program makes of a file within the limits, if it is beyond them.
 pub const BEYOND: &str = "the program's own form of the file is beyond the limits of XML";
 
-/// A document.
 #[derive(Default)]
 pub struct Tree<'a> {
     pub elements: Vec<Element<'a>>,
@@ -20,7 +19,6 @@ pub struct Tree<'a> {
     pub stray: Option<usize>,
 }
 
-/// An element.
 pub struct Element<'a> {
     /// With its prefix, if the parser knows no namespaces.
     pub name: Cow<'a, str>,
@@ -39,7 +37,6 @@ impl<'a> Element<'a> {
     }
 }
 
-/// An element of a tree.
 #[derive(Clone, Copy)]
 pub struct Node<'t> {
     tree: &'t Tree<'t>,
@@ -58,7 +55,6 @@ impl<'t> Tree<'t> {
         index
     }
 
-    /// The elements that are in no other.
     pub fn tops(&'t self) -> impl Iterator<Item = Node<'t>> {
         self.tops.iter().map(move |&index| Node { tree: self, index })
     }
@@ -77,7 +73,6 @@ impl<'t> Node<'t> {
         self.element().text.as_deref()
     }
 
-    /// Where the element begins in the file.
     pub fn start(self) -> usize {
         self.element().tag.start
     }

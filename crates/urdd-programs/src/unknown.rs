@@ -4,7 +4,7 @@
 use std::cell::LazyCell;
 use std::collections::HashSet;
 
-use urdd_xml::vocabulary::{KNOWN, Known, of};
+use urdd_xml::element::{KNOWN, Known, of};
 
 use crate::effect::{At, Effects, Part};
 use crate::fault::Fault;
@@ -150,8 +150,11 @@ impl Finder {
         if is_extension(name) {
             return;
         }
-        if let Some(like) = meant_element(inside, name, known) {
-            self.add(node, &part_meant(node, like, known, place), name, like);
+        let mut children = known.children.iter().filter_map(|one| of(one));
+        let like = children.find(|one| is_like(name, one.name));
+        // It is meant, if it would be read.
+        if let Some(like) = like.filter(|like| would_be_read(inside, like)) {
+            self.add(node, &part_meant(node, like.name, known, place), name, like.name);
         } else if let Some(other) = of(name) {
             let is_default =
                 name == "origin" && node.attributes().iter().all(|one| is_zero(&one.value));
@@ -263,13 +266,6 @@ fn part_of(parent: &Part, element: &str, node: Node<'_>, count: usize) -> Part {
         | "sphere" | "cylinder" | "capsule" | "mesh" => parent.clone(),
         _ => parent.inside(element),
     }
-}
-
-/// The element that is meant by a name that is not one, if it would be read.
-fn meant_element(beside: &Beside<'_>, name: &str, known: &Known) -> Option<&'static str> {
-    let mut children = known.children.iter().filter_map(|one| of(one));
-    let one = children.find(|one| is_like(name, one.name))?;
-    would_be_read(beside, one).then_some(one.name)
 }
 
 /// The attribute that is written as an element: `<value>3</value>`.

@@ -47,7 +47,6 @@ pub const THREE: About = About {
 
 const NO_COLOR: &str = "the material has no colour and no texture";
 
-/// Which urdfdom.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Release {
     /// 4.0.1: URDF 1.0.

@@ -1,14 +1,32 @@
-//! The grammar of a document type declaration (XML 1.0, productions 28, 45 to 60 and 75 to 83), which the parser skips.
-//! Entities are refused elsewhere, so no reference to one can be right here.
+//! Characters and names of XML, and the grammar of a document type declaration (XML 1.0, productions 28, 45 to 60 and 75 to 83),
+//! which the parser skips. Entities are refused elsewhere, so no reference to one can be right here.
 
-use super::characters::{is_character, is_character_number, is_qualified};
+/// Whether a name has at most one `:`, between two parts.
+pub fn is_qualified(name: &str) -> bool {
+    !name.starts_with(':') && !name.ends_with(':') && name.matches(':').count() <= 1
+}
+
+/// Whether `&#…;` with this between its marks is a reference to a character of XML.
+pub fn is_character_number(digits: &str) -> bool {
+    let number = match digits.strip_prefix('x') {
+        Some(digits) => u32::from_str_radix(digits, 16),
+        None => digits.parse(),
+    };
+    let is_signed = digits.contains('+');
+    !is_signed && number.ok().and_then(char::from_u32).is_some_and(is_character)
+}
+
+/// Whether XML 1.0 allows a character (production 2).
+pub fn is_character(c: char) -> bool {
+    matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
+}
 
 const HEAD: &str = "the document type (`<!DOCTYPE`) is not well-formed; remove it";
 const INSIDE: &str =
     "a declaration within `<!DOCTYPE ...>` cannot be read; remove the document type";
 
 /// The fault of a document type declaration, and its offset in the text, which begins with `<!DOCTYPE`.
-pub(super) fn fault(text: &str) -> Option<(usize, &'static str)> {
+pub fn fault(text: &str) -> Option<(usize, &'static str)> {
     let mut reader = DoctypeReader { rest: &text["<!DOCTYPE".len()..], is_inside: false };
     let is_read = reader.document_type().is_some();
     let end = text.len() - reader.rest.len();

@@ -2,9 +2,8 @@
 
 use roxmltree::{Descendants, Node, ParsingOptions, TextPos};
 
-use crate::error::XmlError;
-use crate::limits::{Kind, MAX_NODES};
-use crate::{count, strict, tally};
+use crate::error::{Kind, MAX_NODES, XmlError};
+use crate::{check, tally};
 
 /// A document within the limits. Only [`parse`] makes one.
 #[derive(Debug)]
@@ -17,10 +16,9 @@ pub struct Document<'t>(roxmltree::Document<'t>);
 /// the XML declaration names a wrong version or encoding, or a name, prefix or reference is not one of XML 1.0 and its
 /// namespaces.
 pub fn parse(text: &str, kind: Kind) -> Result<Document<'_>, XmlError> {
-    count::check(text, kind)?;
+    check::limits(text, kind)?;
     if kind == Kind::Robot {
-        strict::check_declaration(text)?;
-        strict::check(text)?;
+        check::strict(text)?;
     }
     tally::count("roxmltree");
     let options = ParsingOptions {
@@ -62,8 +60,8 @@ impl<'t> Document<'t> {
 /// The bytes of a file within the limits: what a reader takes that parses XML by its own code.
 #[derive(Debug, Clone, Copy)]
 pub struct Counted<'t> {
-    pub(crate) bytes: &'t [u8],
-    pub(crate) document: Option<&'t Document<'t>>,
+    bytes: &'t [u8],
+    document: Option<&'t Document<'t>>,
 }
 
 impl<'t> Counted<'t> {
@@ -72,7 +70,7 @@ impl<'t> Counted<'t> {
     /// # Errors
     /// [`XmlError`] if it declares entities, or exceeds a limit.
     pub fn new(bytes: &'t [u8], kind: Kind) -> Result<Self, XmlError> {
-        count::check(&String::from_utf8_lossy(bytes), kind)?;
+        check::limits(&String::from_utf8_lossy(bytes), kind)?;
         Ok(Counted { bytes, document: None })
     }
 
@@ -84,5 +82,45 @@ impl<'t> Counted<'t> {
     /// Its document, where that is known.
     pub fn document(self) -> Option<&'t Document<'t>> {
         self.document
+    }
+}
+
+/// The text of a robot and its document, which all that read it borrow.
+#[derive(Debug)]
+pub struct Xml<'t> {
+    text: &'t str,
+    document: Result<Document<'t>, XmlError>,
+}
+
+impl<'t> Xml<'t> {
+    /// Parses a text.
+    pub fn new(text: &'t str) -> Self {
+        Xml { text, document: parse(text, Kind::Robot) }
+    }
+
+    /// The text.
+    pub fn text(&self) -> &'t str {
+        self.text
+    }
+
+    /// The document, as [`parse`] gives it for [`Kind::Robot`].
+    ///
+    /// # Errors
+    /// Those of [`parse`].
+    pub fn document(&self) -> Result<&Document<'t>, &XmlError> {
+        self.document.as_ref()
+    }
+
+    /// The bytes of the file that has this text, perhaps in another encoding.
+    ///
+    /// # Errors
+    /// Those of [`Counted::new`].
+    pub fn counted<'f>(&'f self, bytes: &'f [u8]) -> Result<Counted<'f>, XmlError> {
+        match &self.document {
+            Ok(document) if bytes == self.text.as_bytes() => {
+                Ok(Counted { bytes, document: Some(document) })
+            }
+            _ => Counted::new(bytes, Kind::Robot),
+        }
     }
 }

@@ -10,32 +10,25 @@
 //! No other crate depends on `roxmltree` (`tests/program/parsers.rs`). Readers with parsers of their own take a
 //! [`Counted`].
 
-mod characters;
-mod count;
+mod check;
 mod doctype;
 mod document;
 pub mod element;
 mod error;
-mod limits;
-mod markup;
 mod mended;
 pub mod number;
 pub mod other_parts;
-mod strict;
 #[doc(hidden)]
 pub mod tally;
 pub mod tinyxml2;
-pub mod vocabulary;
 pub mod writer;
-mod xml;
 
-pub use characters::is_character;
-pub use document::{Counted, Document, parse};
-pub use error::XmlError;
-pub use limits::{Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_NODES, MAX_PREFIXES, MAX_ROBOT_ELEMENTS};
-pub use markup::root_name;
+pub use check::{root_name, wrong_version};
+pub use doctype::is_character;
+pub use document::{Counted, Document, Xml, parse};
+pub use error::{
+    Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_NODES, MAX_PREFIXES, MAX_ROBOT_ELEMENTS, XmlError,
+};
 pub use mended::{Mended, parse_leniently};
 pub use quick_xml::escape::escape;
 pub use roxmltree::{Attribute, Error as ParserError, Node, NodeId, StringStorage, TextPos};
-pub use strict::wrong_version;
-pub use xml::Xml;

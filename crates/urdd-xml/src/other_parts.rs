@@ -5,9 +5,8 @@ use std::collections::HashMap;
 
 use roxmltree::Node;
 
-use crate::element::{children, name};
-use crate::vocabulary::of;
-use crate::xml::Xml;
+use crate::document::Xml;
+use crate::element::{children, name, of};
 
 /// What a part belongs to, by name.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]

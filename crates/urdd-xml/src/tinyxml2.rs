@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use crate::limits::MAX_ATTRIBUTES;
+use crate::error::MAX_ATTRIBUTES;
 use crate::tally;
 
 /// Why a document is refused.

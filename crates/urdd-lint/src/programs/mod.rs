@@ -23,7 +23,6 @@ use faults::{Faulty, Said, faults};
 /// Maximum number of effects of a program in a report; the rest are counted.
 const KEPT: usize = 1_000;
 
-/// What programs do with a file.
 pub struct Asked {
     /// What reports say.
     pub results: Vec<ProgramResult>,

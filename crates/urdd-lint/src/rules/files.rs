@@ -104,7 +104,6 @@ fn backslash_in_path(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     Some(())
 }
 
-/// The files of meshes, by their names.
 type Meshes<'a> = HashMap<&'a str, &'a Result<PathBuf, MissingMesh>>;
 
 /// Whether the file is there with slashes, and not with the backslashes that Linux has in names.
@@ -128,9 +127,8 @@ fn letter_case(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         Some((node, mesh.filename.as_str(), near, None))
     });
     let textures = textures(urdf, findings)?.into_iter();
-    let textures = textures.filter_map(|texture| {
-        let near = texture.file.err()?.other_case?;
-        let (node, name) = (texture.named.node, texture.named.name);
+    let textures = textures.filter_map(|(NamedFile { node, name }, file)| {
+        let near = file.err()?.other_case?;
         // LNT030 says the others.
         near.is_only.then_some((node, name, near, Some(Severity::Info)))
     });
@@ -227,7 +225,7 @@ fn package_not_found(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let meshes = urdf.meshes(findings)?;
     let textures = textures(urdf, findings)?;
     let of_meshes = meshes.into_iter().map(|(node, mesh)| (node, mesh.file.clone()));
-    let of_textures = textures.into_iter().map(|texture| (texture.named.node, texture.file));
+    let of_textures = textures.into_iter().map(|(named, file)| (named.node, file));
     for (node, file) in of_meshes.chain(of_textures) {
         let Some((package, near)) = file.err().and_then(|missing| {
             // LNT029 says these.
@@ -263,8 +261,8 @@ fn texture_missing(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             }
         }
     }
-    for texture in textures(urdf, findings)? {
-        let (Err(missing), named) = (texture.file, texture.named) else { continue };
+    for (named, file) in textures(urdf, findings)? {
+        let Err(missing) = file else { continue };
         // Other rules say these.
         let in_other_case = missing.other_case.is_some_and(|near| near.is_only);
         if in_other_case
@@ -295,12 +293,8 @@ fn is_there(files: &Files, folder: &Path, name: &str) -> bool {
         || files.is_file(&folder.join(&*decoded))
 }
 
-struct Texture<'a> {
-    /// Its `<texture>`, and the name there.
-    named: NamedFile<'a, 'a>,
-    /// The file, or why there is none.
-    file: Result<PathBuf, MissingMesh>,
-}
+/// A `<texture>` and the name there, and its file, or why there is none.
+type Texture<'a> = (NamedFile<'a, 'a>, Result<PathBuf, MissingMesh>);
 
 /// The textures of materials, each name once an element. Skips the rule if the URDF describes no robot.
 fn textures<'a>(urdf: &Subject<'a>, findings: &mut Findings) -> Option<Vec<Texture<'a>>> {
@@ -312,6 +306,6 @@ fn textures<'a>(urdf: &Subject<'a>, findings: &mut Findings) -> Option<Vec<Textu
             && above.is_some_and(|above| above.tag_name().name() == "material")
     };
     let named = urdf.named_files().into_iter().filter(in_material);
-    let found = named.map(|named| Texture { named, file: source.find(named.name) });
+    let found = named.map(|named| (named, source.find(named.name)));
     Some(found.collect())
 }

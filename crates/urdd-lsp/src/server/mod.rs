@@ -5,7 +5,6 @@ mod documents;
 pub mod state;
 
 use std::collections::{HashMap, HashSet};
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::{Receiver, Sender, select, unbounded};
@@ -23,27 +22,11 @@ const CONFIGURATION: &str = "urdd configuration";
 
 /// Serves one editor on a connection, until it ends or asks to.
 pub fn run(connection: Connection) -> Ended {
-    let Connection { sender, receiver } = connection;
     let (events, computed) = unbounded();
-    let begun = match initialize(&sender, &receiver) {
-        Ok(begun) => begun,
-        Err(ended) => return ended,
-    };
-    let mut server = Server {
-        sender,
-        client: begun.client,
-        options: begun.options,
-        root: begun.root,
-        parent: begun.parent,
-        documents: HashMap::new(),
-        pending: HashSet::new(),
-        events,
-        quick: Pool::new("texts", 1),
-        slow: Pool::new("files", 1),
-        answers: Pool::new("answers", 2),
-        is_shut_down: false,
-    };
-    server.serve(&receiver, &computed)
+    match initialize(connection.sender, &connection.receiver, events) {
+        Ok(mut server) => server.serve(&connection.receiver, &computed),
+        Err(ended) => ended,
+    }
 }
 
 impl Server {
@@ -160,19 +143,15 @@ impl Server {
     }
 }
 
-/// What the editor said of itself.
-struct Begun {
-    client: Client,
-    options: Options,
-    root: Option<PathBuf>,
-    parent: Option<Process>,
-}
-
 /// Answers the editor's first message.
 ///
 /// # Errors
 /// If the editor ends before.
-fn initialize(sender: &Sender<Message>, messages: &Receiver<Message>) -> Result<Begun, Ended> {
+fn initialize(
+    sender: Sender<Message>,
+    messages: &Receiver<Message>,
+    events: Sender<Event>,
+) -> Result<Server, Ended> {
     loop {
         let request = match messages.recv() {
             Ok(Message::Request(request)) => request,
@@ -196,15 +175,14 @@ fn initialize(sender: &Sender<Message>, messages: &Receiver<Message>) -> Result<
             refuse(ErrorCode::InvalidParams, message);
             continue;
         }
-        let begun = begun(&request.params);
-        let response = Response::new_ok(request.id, initialize_result(&begun.client));
-        let _ = sender.send(response.into());
-        return Ok(begun);
+        let server = begun(&request.params, sender, events);
+        server.send(Response::new_ok(request.id, initialize_result(&server.client)));
+        return Ok(server);
     }
 }
 
 /// Only what is used is read: what else an editor says may have any form.
-fn begun(params: &Value) -> Begun {
+fn begun(params: &Value, sender: Sender<Message>, events: Sender<Event>) -> Server {
     let folders = params["workspaceFolders"].as_array();
     let mut roots =
         folders.into_iter().flatten().filter_map(|folder| uri::path(folder["uri"].as_str()?));
@@ -215,10 +193,18 @@ fn begun(params: &Value) -> Begun {
         options.update(value, root.as_deref());
     }
     let parent = params["processId"].as_u64().and_then(|id| u32::try_from(id).ok());
-    Begun {
+    Server {
+        sender,
         client: Client::new(&params["capabilities"]),
         options,
         root,
         parent: parent.and_then(Process::find),
+        documents: HashMap::new(),
+        pending: HashSet::new(),
+        events,
+        quick: Pool::new("texts", 1),
+        slow: Pool::new("files", 1),
+        answers: Pool::new("answers", 2),
+        is_shut_down: false,
     }
 }

@@ -123,7 +123,6 @@ impl Document {
 pub enum Event {
     /// The findings of a version of a document.
     Analysed(Arc<Snapshot>, Depth, Analysis),
-    /// The answer to a request.
     Answered(RequestId, Result<Value, ResponseError>),
 }
 
@@ -135,7 +134,6 @@ pub struct Server {
     pub root: Option<PathBuf>,
     pub parent: Option<Process>,
     pub documents: HashMap<String, Document>,
-    /// The requests that are being answered.
     pub pending: HashSet<RequestId>,
     pub events: Sender<Event>,
     /// For findings of texts.
@@ -152,7 +150,6 @@ impl Server {
         let _ = self.sender.send(message.into());
     }
 
-    /// Writes into the editor's log.
     pub fn log(&self, text: &str) {
         let params = json!({ "type": 2, "message": format!("urdd: {text}") });
         self.send(Notification::new("window/logMessage".to_owned(), params));
@@ -193,7 +190,6 @@ impl Client {
     }
 }
 
-/// The answer to an editor's first message.
 pub fn initialize_result(client: &Client) -> InitializeResult {
     let sync = TextDocumentSyncOptions {
         open_close: Some(true),

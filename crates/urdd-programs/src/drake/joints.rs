@@ -140,7 +140,6 @@ impl DrakeReader<'_> {
         Ok(())
     }
 
-    /// The name of a joint's parent or child.
     fn end<'t>(&mut self, joint: Node<'t>, name: &'static str) -> Reading<&'t Attribute<'t>> {
         let end = self.effects.needed_element(joint, name)?;
         self.effects.needed(end, "link")

@@ -4,7 +4,6 @@ use crate::mujoco::reader::{MujocoReader, Release};
 use crate::number::Pose;
 use crate::prelude::*;
 
-/// A joint, as the tree asks for it.
 pub struct Joint<'t> {
     pub node: Node<'t>,
     pub name: &'t str,

@@ -7,7 +7,6 @@ use crate::prelude::*;
 /// The least mass, and the least moment of inertia, of a link that moves.
 pub const LEAST: f64 = 1e-15;
 
-/// Which MuJoCo.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Release {
     /// 3.3.7.
@@ -26,7 +25,6 @@ impl Release {
     }
 }
 
-/// What all parts of the reader have.
 pub struct MujocoReader<'r> {
     pub release: Release,
     pub file: &'r File<'r>,
@@ -43,7 +41,6 @@ pub struct Settings {
     pub has_visuals: bool,
     /// Only the last part of a mesh's file name counts; none if nothing is said.
     pub strips_paths: Option<bool>,
-    /// The folder of meshes.
     pub mesh_folder: String,
     /// Tensors that no body can have are mended.
     pub balances: bool,

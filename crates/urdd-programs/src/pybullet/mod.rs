@@ -269,7 +269,6 @@ fn is_defined(material: Node<'_>) -> bool {
     material.children().any(|child| matches!(child.name(), "color" | "texture" | "specular"))
 }
 
-/// The text of a material's colour.
 fn rgba<'t>(material: Node<'t>) -> &'t str {
     material.child("color").and_then(|color| color.value("rgba")).unwrap_or_default()
 }

@@ -192,7 +192,6 @@ impl PybulletReader<'_> {
         Ok(Joint { node, name, parent, child })
     }
 
-    /// The name of a joint's parent or child.
     fn end<'t>(
         &mut self,
         joint: Node<'t>,

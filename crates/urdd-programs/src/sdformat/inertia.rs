@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use crate::number::{Matrix, Pose, Vector, centre, moved, sum, transposed, turned};
 use crate::prelude::*;
 
-/// The inertia of a link.
 #[derive(Clone, Copy, Default)]
 pub struct Inertia {
     pub mass: f64,

@@ -349,7 +349,6 @@ fn is_utf8(bytes: &[u8]) -> bool {
     has_mark || name.is_empty() || name.starts_with("utf-8") || name.starts_with("utf8")
 }
 
-/// The bytes of a value as they are written.
 fn value<'a>(bytes: &'a [u8], attribute: &Attribute<'_>) -> &'a [u8] {
     let written = bytes.get(attribute.range.clone()).unwrap_or_default();
     let start = written.iter().position(|byte| matches!(byte, b'"' | b'\''));

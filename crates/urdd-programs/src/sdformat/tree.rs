@@ -11,7 +11,6 @@ use crate::urdfdom::Model;
 /// The least mass of a link, kg.
 const MIN_MASS: f64 = 1e-6;
 
-/// Which libsdformat.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Release {
     /// 12.3.0.

@@ -205,7 +205,6 @@ impl<'t> UsdReader<'_, 't> {
         Ok(())
     }
 
-    /// The colour and texture of a material.
     fn look(&mut self, material: Node<'t>, part: &Part) -> Reading<()> {
         if let Some(rgba) = last(material, "color").and_then(|color| color.attribute("rgba")) {
             let opacity = rgba.value.split_whitespace().nth(3).and_then(python).unwrap_or(1.0);

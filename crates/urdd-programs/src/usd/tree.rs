@@ -67,7 +67,6 @@ fn driven<'t>(joints: &[Joint<'t>]) -> HashSet<&'t str> {
 
 struct Tree<'t, 'a> {
     links: &'a HashMap<&'t str, Node<'t>>,
-    /// The joints below each link.
     below: HashMap<&'t str, Vec<&'a Joint<'t>>>,
     driven: HashSet<&'t str>,
     /// Links whose inertia goes to the link above.
