@@ -1,22 +1,19 @@
 //! A robot of another format, in the terms of that format: bodies in a tree, each with the joints by which it moves.
 //!
-//! Lengths in m, angles in rad, masses in kg, inertias in kg m². A reader of a format makes a [`Model`]; the writers of
-//! this room make a URDF and its companions from it. What is in a list was charged to the account of the run, with all
-//! that the writers make of it.
+//! Lengths in m, angles in rad, masses in kg, inertias in kg m². A reader of a format makes a [`Model`]; `urdf.rs` makes a
+//! URDF and its companions from it. What is in a list was charged to the account of the run, with all that is made of it.
 
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
-use urdd_directory::account::Charged;
+use urdd_directory::account::{Charged, Cost};
 use urdd_format::loops::LoopKind;
 
-use super::features::{self, Feature, Tally};
-use super::place::{Place, TextFile};
+use crate::features::{self, Feature, Tally};
+use crate::place::{Place, TextFile};
 
-/// A robot.
 #[derive(Debug, Clone, Default)]
 pub struct Model {
-    /// Its name.
     pub name: String,
     /// The files that were read: the description first, then what it includes.
     pub files: Vec<TextFile>,
@@ -40,14 +37,11 @@ pub struct Model {
     pub elements: Charged<GazeboElement>,
     /// The coefficient of friction of all shapes, where all have the same.
     pub friction: Option<f64>,
-    /// What became of what the description says.
     pub tally: Tally,
 }
 
-/// A rigid body.
 #[derive(Debug, Clone)]
 pub struct Body {
-    /// Its name.
     pub name: String,
     /// Its parent, by index; none of the first body alone.
     pub parent: Option<usize>,
@@ -57,13 +51,10 @@ pub struct Body {
     pub joints: Charged<Joint>,
     /// The name of the fixed joint, if it has no others; `NAME_fixed` otherwise.
     pub fixed_by: Option<String>,
-    /// Its mass, if it has one.
     pub inertial: Option<Inertial>,
-    /// Its shapes.
     pub shapes: Charged<Shape>,
     /// Whether it is a frame alone: a site, a camera, a frame of SDF.
     pub is_frame: bool,
-    /// Where it stands.
     pub place: Place,
 }
 
@@ -89,13 +80,11 @@ impl Body {
 pub struct Inertial {
     /// Mass, kg.
     pub mass: f64,
-    /// Centre of mass.
     pub centre: Point3<f64>,
     /// The inertia about the centre of mass, along the axes of the frame.
     pub inertia: Matrix3<f64>,
 }
 
-/// How a joint moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointKind {
     /// About its axis.
@@ -123,12 +112,10 @@ impl JointKind {
     }
 }
 
-/// A joint.
 #[derive(Debug, Clone)]
 pub struct Joint {
     /// Its name; unique and not empty.
     pub name: String,
-    /// How it moves.
     pub kind: JointKind,
     /// Its frame in the body's, which moves with the body.
     pub frame: Isometry3<f64>,
@@ -146,7 +133,6 @@ pub struct Joint {
     pub damping: f64,
     /// Friction, N or N m.
     pub friction: f64,
-    /// The joint that it follows.
     pub mimic: Option<Mimic>,
     /// Gains of its actuator: N m/rad or N/m, and N m s/rad or N s/m; the inertia of its motor, kg m² or kg.
     pub kp: Option<f64>,
@@ -154,7 +140,6 @@ pub struct Joint {
     pub armature: Option<f64>,
     /// What else its actuator says.
     pub actuator: Actuator,
-    /// Where it stands.
     pub place: Place,
 }
 
@@ -218,28 +203,19 @@ pub struct Mimic {
 /// What a shape is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Use {
-    /// It is seen.
     Visual,
-    /// It collides.
     Collision,
-    /// Both.
     Both,
 }
 
-/// A shape of a body.
 #[derive(Debug, Clone)]
 pub struct Shape {
-    /// Its name, if it has one.
     pub name: Option<String>,
-    /// What it is for.
     pub used: Use,
     /// Its frame in the body's.
     pub pose: Isometry3<f64>,
-    /// What it is.
     pub geometry: Geometry,
-    /// How it looks, if it is said.
     pub material: Option<Material>,
-    /// Where it stands.
     pub place: Place,
 }
 
@@ -249,15 +225,22 @@ pub enum Geometry {
     /// Lengths of the edges.
     Box([f64; 3]),
     /// Along z.
-    Cylinder { radius: f64, length: f64 },
+    Cylinder {
+        radius: f64,
+        length: f64,
+    },
     /// Along z; the length is without the two ends.
-    Capsule { radius: f64, length: f64 },
-    /// The radius.
+    Capsule {
+        radius: f64,
+        length: f64,
+    },
     Sphere(f64),
-    /// The three radii.
     Ellipsoid([f64; 3]),
     /// A mesh: an index in [`Model::assets`], and the factors by which it is scaled.
-    Mesh { asset: usize, scale: [f64; 3] },
+    Mesh {
+        asset: usize,
+        scale: [f64; 3],
+    },
 }
 
 impl Geometry {
@@ -272,7 +255,6 @@ impl Geometry {
     }
 }
 
-/// How a shape looks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Its name; one is given to it otherwise.
@@ -288,14 +270,11 @@ pub struct Material {
 pub struct Asset {
     /// Its path below the folder of the URDF, such as `meshes/base.stl`; unique regardless of case.
     pub path: String,
-    /// Its content.
     pub bytes: Arc<[u8]>,
 }
 
-/// A named configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Configuration {
-    /// Its name.
     pub name: String,
     /// Values of joints, in the order of bodies and of their joints.
     pub values: Charged<JointValue>,
@@ -303,12 +282,10 @@ pub struct Configuration {
     pub base: Option<[f64; 7]>,
 }
 
-/// The value of a joint in a named configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointValue {
     /// The joint: the index of its body, and its own there.
     pub joint: (usize, usize),
-    /// Its name.
     pub name: String,
     /// Of each DOF, rad or m; of rotations about a point, the components of the rotation vector.
     pub values: Vec<f64>,
@@ -317,13 +294,9 @@ pub struct JointValue {
 /// What holds two bodies together, beside the tree.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Closing {
-    /// Its name, if it has one.
     pub name: Option<String>,
-    /// What it holds.
     pub kind: LoopKind,
-    /// Where.
     pub ends: [End; 2],
-    /// Where it stands.
     pub place: Place,
 }
 
@@ -337,9 +310,7 @@ pub struct End {
 /// An equation between joints: the constant, and a polynomial without one of each, add up to 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coupled {
-    /// Its name, if it has one.
     pub name: Option<String>,
-    /// The constant.
     pub constant: f64,
     /// Names of joints, and up to four coefficients.
     pub terms: Vec<(String, Vec<f64>)>,
@@ -352,8 +323,78 @@ pub struct GazeboElement(pub String);
 /// Two bodies that are never checked for collisions with each other, or always, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Apart {
-    /// Their indices.
     pub bodies: [usize; 2],
     /// The reason; of those that are never checked in one word, as SRDF has it: `Adjacent`, `Never`, `User`.
     pub reason: &'static str,
+}
+
+/// What comes of an entry, bytes: in memory, in the URDF and in its companions, and in what reads these.
+pub const ENTRY: usize = 3000;
+/// The same, of a value of a joint or a pair.
+pub const PART: usize = 500;
+/// The same, of each byte of a name.
+pub const LETTER: usize = 12;
+
+impl Cost for Body {
+    fn cost(&self) -> usize {
+        ENTRY + LETTER * self.name.len()
+    }
+}
+
+impl Cost for Joint {
+    fn cost(&self) -> usize {
+        let leader = self.mimic.as_ref().map(|of| &of.joint);
+        let others = leader.into_iter().chain(&self.actuator.name);
+        ENTRY + LETTER * (self.name.len() + others.map(String::len).sum::<usize>())
+    }
+}
+
+impl Cost for Shape {
+    fn cost(&self) -> usize {
+        let material = self.material.as_ref().and_then(|material| material.name.as_ref());
+        ENTRY + LETTER * self.name.iter().chain(material).map(String::len).sum::<usize>()
+    }
+}
+
+impl Cost for Asset {
+    fn cost(&self) -> usize {
+        self.path.len() + self.bytes.len()
+    }
+}
+
+impl Cost for Configuration {
+    fn cost(&self) -> usize {
+        ENTRY + LETTER * self.name.len()
+    }
+}
+
+impl Cost for JointValue {
+    fn cost(&self) -> usize {
+        PART + LETTER * self.name.len()
+    }
+}
+
+impl Cost for Apart {
+    fn cost(&self) -> usize {
+        PART
+    }
+}
+
+impl Cost for Closing {
+    fn cost(&self) -> usize {
+        ENTRY + LETTER * self.name.as_ref().map_or(0, String::len)
+    }
+}
+
+impl Cost for Coupled {
+    fn cost(&self) -> usize {
+        let names = self.name.iter().chain(self.terms.iter().map(|(name, _)| name));
+        ENTRY + LETTER * names.map(String::len).sum::<usize>()
+    }
+}
+
+impl Cost for GazeboElement {
+    fn cost(&self) -> usize {
+        ENTRY + LETTER * self.0.len()
+    }
 }

@@ -6,6 +6,12 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
+use urdd_directory::account::{Account, Overdrawn};
+use urdd_directory::limits::MAX_MANIFEST_BYTES;
+use urdd_directory::position::{LineIndex, Position};
+use urdd_directory::read_error::ReadError;
+use urdd_xml::Node;
+use urdd_xml::element::{attribute, name};
 
 use crate::files::MAX_SOURCE_BYTES;
 use crate::gate::Gate;
@@ -13,13 +19,8 @@ use crate::launch::choices;
 use crate::resolve::FoundMesh;
 use crate::roots::Place;
 use crate::settings::Settings;
-pub use crate::xacro_argument::XacroArgument;
-use urdd_directory::account::{Account, Overdrawn};
-use urdd_directory::limits::MAX_MANIFEST_BYTES;
-use urdd_directory::position::{LineIndex, Position};
-use urdd_directory::read_error::ReadError;
-use urdd_xml::Node;
-use urdd_xml::element::{attribute, name};
+
+pub use crate::error::XacroArgument;
 
 /// Maximum number of names of a folder that are looked at, and of values that are suggested.
 const MAX_NAMES: usize = 1000;

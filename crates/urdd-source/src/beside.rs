@@ -3,9 +3,10 @@
 
 use std::path::Path;
 
-use crate::gate::Gate;
 use urdd_directory::limits::{MAX_SRDF_BYTES, MAX_TOML_BYTES};
 use urdd_format::named_configurations::ConfigurationEdit;
+
+use crate::gate::Gate;
 
 /// The text of a file, or why it cannot be read.
 pub type Companion = Result<String, String>;

@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 
-use crate::arguments::{MAX_VALUES, is_given, whole_argument};
-use crate::settings::Settings;
-use crate::xacro_argument::XacroArgument;
 use urdd_directory::position::LineIndex;
 use urdd_xml::element::{attribute, name};
+
+use crate::arguments::{MAX_VALUES, is_given, whole_argument};
+use crate::error::XacroArgument;
+use crate::settings::Settings;
 
 /// The arguments for whose values alone the text of a file defines a property, each with these values. Those with such a
 /// default, and those that are given, are left out.

@@ -2,27 +2,25 @@
 
 use std::path::{Path, PathBuf};
 
-use super::arguments::needed;
-use super::deciding::deciding;
-use super::decode::{Decoded, Decoding, Original, decode};
-use super::error::SourceError;
-use super::fault::{Fault, PlacedFault};
-use super::files::{Files, MAX_SOURCE_BYTES};
-use super::loops::{self, Said};
-use super::made_from::Origin;
-use super::note::{Note, Remark, SourcePlace};
-use super::repair::{Repaired, mend_xml};
-use super::settings::Settings;
-use super::urdf::{self, Reading};
-use super::watch::Trail;
-use super::xacro;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::path;
 use urdd_format::urdf::UrdfModule;
-
 use urdd_xml::Xml;
 use urdd_xml::element::apply;
+
+use crate::arguments::needed;
+use crate::deciding::deciding;
+use crate::decode::{Decoded, Decoding, Original, Repaired, decode, mend_xml};
+use crate::error::SourceError;
+use crate::fault::{Fault, PlacedFault};
+use crate::files::{Files, MAX_SOURCE_BYTES};
+use crate::loops::{self, Said};
+use crate::note::{Note, Remark, SourcePlace};
+use crate::settings::Settings;
+use crate::urdf::{self, Reading};
+use crate::written::Origin;
+use crate::xacro::{self, Trail};
 
 /// Maximum number of repair rounds; one is enough unless this program has a bug.
 const MOST_ROUNDS: usize = 4;

@@ -6,16 +6,6 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use thiserror::Error;
-
-use super::declared::{Declared, files_below, robots_of};
-use super::described::{Description, FileKind, Reason, describe};
-use super::error::SourceError;
-use super::fault::Fault;
-use super::files::Files;
-use super::format::{RobotFile, by_content, parts_of_others};
-use super::packages::{IGNORED, package_name};
-use super::settings::Settings;
-
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::limits::MAX_FOLDER_DEPTH;
@@ -23,6 +13,14 @@ use urdd_directory::path;
 use urdd_format::escape;
 use urdd_format::readable::first_of;
 use urdd_format::short::Short;
+
+use crate::described::{Description, FileKind, Reason, describe};
+use crate::error::SourceError;
+use crate::fault::Fault;
+use crate::files::Files;
+use crate::format::{RobotFile, by_content, parts_of_others};
+use crate::packages::{IGNORED, package_name};
+use crate::settings::{Declared, Settings, files_below, robots_of};
 
 /// A robot of a batch.
 #[derive(Debug, Clone, PartialEq, Eq)]

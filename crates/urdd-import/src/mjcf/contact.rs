@@ -2,22 +2,18 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::super::features::{self, Tally};
-use super::super::model::Apart;
-use super::super::place::Place;
-use super::super::price::LETTER;
-use super::super::refusal::{Fallible, Placing};
-use super::body::{Made, RawBody, WORLD};
-use super::element::Element;
-use super::geom::{Geom, GeomKind};
-use super::lookup::Lookup;
-use super::reading::Attributes;
 use urdd_directory::account::{Account, Charged};
+
+use super::body::{Lookup, Made, RawBody, WORLD};
+use super::geom::{Geom, GeomKind};
+use super::reading::{Attributes, Element};
+use crate::features::{self, Tally};
+use crate::model::{Apart, LETTER};
+use crate::place::{Fallible, Place, Placing};
 
 /// Bodies that can collide; their pairs are counted one by one.
 const MOST: usize = 1500;
 
-/// What `<contact>` says.
 #[derive(Default)]
 pub struct Contacts {
     /// Shapes of pairs that always collide, by body and place in it.
@@ -29,7 +25,6 @@ pub struct Contacts {
     keeps_parents: bool,
 }
 
-/// Pairs of bodies of the robot.
 #[derive(Default)]
 pub struct Pairs {
     /// Those that never collide, though both have shapes that do.
@@ -45,7 +40,6 @@ const BITS: usize = 32;
 struct Solid(usize, usize, Vec<[u32; 2]>);
 
 impl Contacts {
-    /// Reads `<contact>`.
     pub fn of(root: &Element, lookup: &Lookup<'_>, tally: &mut Tally) -> Fallible<Self> {
         let mut contacts = Contacts::default();
         for flags in root.sections("option").filter(|of| of.tag == "flag") {
@@ -81,7 +75,6 @@ impl Contacts {
         Ok(contacts)
     }
 
-    /// Whether a shape is only seen.
     pub fn is_visual(&self, geom: &Geom<'_>, body: usize, place: usize) -> bool {
         geom.is_visual() && !self.paired.contains(&(body, place))
     }

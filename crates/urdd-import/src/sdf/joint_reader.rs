@@ -2,13 +2,12 @@
 
 use nalgebra::Vector3;
 
-use super::super::features;
-use super::super::refusal::{Fallible, at};
-use super::fault::SdfFault;
-use super::kept::keep;
-use super::reader::SdfReader;
+use super::reader::{SdfReader, keep};
 use super::scene::{Axis, Joint, Mimic, Node, NodeKind, SdfJointKind, WORLD};
 use super::tag::{Tag, is_true};
+use crate::fault::SdfFault;
+use crate::features;
+use crate::place::{Fallible, at};
 
 /// From this number on, a limit is none.
 const NO_LIMIT: f64 = 1e16;
@@ -27,7 +26,6 @@ const KNOWN: &[&str] = &[
     "gearbox_reference_body",
 ];
 
-/// Reads a joint into a scope.
 pub fn joint(reader: &mut SdfReader, tag: Tag, scope: usize) -> Fallible<()> {
     let name = tag.own_name()?;
     let (node, joint) = read(reader, tag, scope)?;

@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use super::super::error::{Fault, Place, Wrong};
-use super::super::half;
-use super::super::value::{MAX_VALUE_LEVELS, Name, Value};
 use super::cursor::Cursor;
 use super::lists::unread;
 use super::sections::Crate;
+use crate::error::{Fault, Place, Wrong};
+use crate::layer::{MAX_VALUE_LEVELS, Name, Value, from_half};
 
 /// Arrays of fewer numbers are not packed.
 const MIN_PACKED: usize = 16;
@@ -69,7 +68,7 @@ impl Scalar {
             U32 => f64::from(cursor.u32()?),
             I64 => cursor.i64()? as f64,
             U64 => cursor.u64()? as f64,
-            Half => half::from_bits(cursor.u16()?),
+            Half => from_half(cursor.u16()?),
             Single => cursor.f32()?,
             Double => cursor.f64()?,
         })

@@ -3,12 +3,10 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::super::door::{Door, beside, is_remote};
-use super::super::error::{Fault, Place, UsdError};
-use super::super::layer::{Layer, Spec, field};
-use super::super::package::{self, Package};
-use super::super::value::{Name, Value};
-use super::super::{binary, text};
+use crate::door::{Door, PACKAGE_START, Package, beside, is_remote};
+use crate::error::{Fault, Place, UsdError};
+use crate::layer::{Layer, Name, Spec, Value, field};
+use crate::{binary, text};
 
 /// Bytes that are made of each byte of text, at most: `int a` becomes a property with a field.
 const OF_TEXT: usize = 60;
@@ -130,7 +128,7 @@ impl<'d> Layers<'d> {
         let wrong = |(place, fault)| error(path, place, fault);
         let layer = |fault| error(path, Place::Layer, fault);
         let bytes = self.bytes(path).map_err(layer)?;
-        let at = if bytes.starts_with(package::START) {
+        let at = if bytes.starts_with(PACKAGE_START) {
             let mut package = Package::open(bytes).map_err(layer)?;
             let root = package.root().map_err(layer)?;
             self.packages.insert(path.to_owned(), package);

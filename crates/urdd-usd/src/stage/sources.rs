@@ -4,12 +4,11 @@ use std::collections::HashSet;
 use std::rc::Rc;
 use std::sync;
 
-use super::super::error::{Fault, Place, UsdError};
-use super::super::layer::{Spec, field};
-use super::super::value::{Item, ListOp, Name, Value};
 use super::composed::Stage;
 use super::layers::{Layers, error};
 use super::tree::{Arc, Site, Tree};
+use crate::error::{Fault, Place, UsdError};
+use crate::layer::{Item, ListOp, Name, Spec, Value, field};
 
 /// The most sites of one prim. Robots have up to ten.
 pub const MAX_SITES: usize = 1000;

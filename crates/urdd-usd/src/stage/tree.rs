@@ -2,8 +2,8 @@
 
 use std::cmp::Reverse;
 
-use super::super::value::Name;
 use super::layers::Layers;
+use crate::layer::Name;
 
 /// How a site comes in, strongest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
