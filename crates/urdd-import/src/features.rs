@@ -155,7 +155,17 @@ pub struct Tally {
 
 impl Tally {
     pub fn count(&mut self, feature: Feature) {
-        *self.counts.entry(feature.name).or_default() += 1;
+        self.add(feature, 1);
+    }
+
+    pub fn add(&mut self, feature: Feature, number: usize) {
+        *self.counts.entry(feature.name).or_default() += number;
+    }
+
+    /// Counts one, and says what was assumed, or left out.
+    pub fn say(&mut self, feature: Feature, place: Place, text: impl AsRef<str>) {
+        self.count(feature);
+        self.remark(place, text);
     }
 
     /// Counts an element or attribute that is not read and is of meaning for the robot: it is lost.

@@ -94,9 +94,8 @@ pub fn limits(
         (true, false) => ([lower, far.max(lower + far)], "upper"),
         (false, true) => ([(-far).min(upper - far), upper], "lower"),
     };
-    tally.count(features::ONE_SIDED);
     let text = format!("joint `{joint}` has no {missing} limit: it is written with {range:?}");
-    tally.remark(place, text);
+    tally.say(features::ONE_SIDED, place, text);
     Some(range)
 }
 

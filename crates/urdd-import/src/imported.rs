@@ -72,10 +72,8 @@ impl Imported {
     /// If the files are more than memory may hold.
     pub fn settings(&self, settings: &Settings) -> Result<Settings, SourceError> {
         let files = self.files.iter().map(|(path, bytes)| (path.clone(), Arc::clone(bytes)));
-        let files = Files::in_memory(files).map_err(|error| SourceError::Read {
-            file: self.shown.clone(),
-            reason: error.to_string(),
-        })?;
+        let files = Files::in_memory(files);
+        let files = files.map_err(|why| SourceError::unread(&self.shown, why))?;
         let packages = Packages::default();
         Ok(Settings {
             files,
@@ -183,11 +181,10 @@ pub fn import(path: &Path, settings: &Settings) -> Result<Option<Imported>, Sour
         // With meshes in it.
         Format::Usd => MAX_DOCUMENT_BYTES,
     };
-    let unreadable =
-        |reason: String| SourceError::Read { file: path.display().to_string(), reason };
-    let bytes = settings.files.read(path, most).map_err(|error| unreadable(error.to_string()))?;
+    let bytes = settings.files.read(path, most);
+    let bytes = bytes.map_err(|why| SourceError::unread(&shown, why))?;
     let canonical = settings.files.canonicalize(path);
-    let canonical = canonical.map_err(|error| unreadable(error.to_string()))?;
+    let canonical = canonical.map_err(|why| SourceError::unread(&shown, why))?;
     let folder = canonical.parent().unwrap_or(Path::new("/"));
     let gate = Gate::of_project(folder, settings);
     gate.account().deposit(bytes.len());

@@ -40,7 +40,7 @@ pub struct Model {
     pub tally: Tally,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Body {
     pub name: String,
     /// Its parent, by index; none of the first body alone.
@@ -61,17 +61,7 @@ pub struct Body {
 impl Body {
     /// A body without joints, mass and shapes.
     pub fn new(name: String, parent: Option<usize>, pose: Isometry3<f64>, place: Place) -> Self {
-        Body {
-            name,
-            parent,
-            pose,
-            joints: Charged::default(),
-            fixed_by: None,
-            inertial: None,
-            shapes: Charged::default(),
-            is_frame: false,
-            place,
-        }
+        Body { name, parent, pose, place, ..Body::default() }
     }
 }
 
@@ -85,9 +75,10 @@ pub struct Inertial {
     pub inertia: Matrix3<f64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum JointKind {
     /// About its axis.
+    #[default]
     Hinge,
     /// Along its axis.
     Slide,
@@ -112,7 +103,7 @@ impl JointKind {
     }
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Joint {
     /// Its name; unique and not empty.
     pub name: String,
@@ -159,24 +150,7 @@ pub struct Actuator {
 impl Joint {
     /// A joint about or along z, of which nothing else is said.
     pub fn new(name: String, kind: JointKind, frame: Isometry3<f64>, place: Place) -> Self {
-        Joint {
-            name,
-            kind,
-            frame,
-            axis: Vector3::z(),
-            reference: 0.0,
-            range: None,
-            effort: None,
-            velocity: None,
-            damping: 0.0,
-            friction: 0.0,
-            mimic: None,
-            kp: None,
-            kv: None,
-            armature: None,
-            actuator: Actuator::default(),
-            place,
-        }
+        Joint { name, kind, frame, axis: Vector3::z(), place, ..Joint::default() }
     }
 
     /// What is counted of it.
@@ -335,43 +309,15 @@ pub const PART: usize = 500;
 /// The same, of each byte of a name.
 pub const LETTER: usize = 12;
 
-impl Cost for Body {
-    fn cost(&self) -> usize {
-        ENTRY + LETTER * self.name.len()
-    }
-}
-
-impl Cost for Joint {
-    fn cost(&self) -> usize {
-        let leader = self.mimic.as_ref().map(|of| &of.joint);
-        let others = leader.into_iter().chain(&self.actuator.name);
-        ENTRY + LETTER * (self.name.len() + others.map(String::len).sum::<usize>())
-    }
-}
-
-impl Cost for Shape {
-    fn cost(&self) -> usize {
-        let material = self.material.as_ref().and_then(|material| material.name.as_ref());
-        ENTRY + LETTER * self.name.iter().chain(material).map(String::len).sum::<usize>()
-    }
-}
-
-impl Cost for Asset {
-    fn cost(&self) -> usize {
-        self.path.len() + self.bytes.len()
-    }
-}
-
-impl Cost for Configuration {
-    fn cost(&self) -> usize {
-        ENTRY + LETTER * self.name.len()
-    }
-}
-
-impl Cost for JointValue {
-    fn cost(&self) -> usize {
-        PART + LETTER * self.name.len()
-    }
+macro_rules! costs {
+    ($($entry:ty: |$of:ident| $cost:expr;)*) => {
+        $(impl Cost for $entry {
+            fn cost(&self) -> usize {
+                let $of = self;
+                $cost
+            }
+        })*
+    };
 }
 
 impl Cost for Apart {
@@ -380,21 +326,27 @@ impl Cost for Apart {
     }
 }
 
-impl Cost for Closing {
-    fn cost(&self) -> usize {
-        ENTRY + LETTER * self.name.as_ref().map_or(0, String::len)
-    }
+/// The bytes of names.
+fn letters<'n>(names: impl IntoIterator<Item = &'n String>) -> usize {
+    LETTER * names.into_iter().map(String::len).sum::<usize>()
 }
 
-impl Cost for Coupled {
-    fn cost(&self) -> usize {
-        let names = self.name.iter().chain(self.terms.iter().map(|(name, _)| name));
-        ENTRY + LETTER * names.map(String::len).sum::<usize>()
-    }
-}
-
-impl Cost for GazeboElement {
-    fn cost(&self) -> usize {
-        ENTRY + LETTER * self.0.len()
-    }
+costs! {
+    Body: |body| ENTRY + letters([&body.name]);
+    Joint: |joint| {
+        let leader = joint.mimic.as_ref().map(|of| &of.joint);
+        ENTRY + letters([&joint.name].into_iter().chain(leader).chain(&joint.actuator.name))
+    };
+    Shape: |shape| {
+        let material = shape.material.as_ref().and_then(|material| material.name.as_ref());
+        ENTRY + letters(shape.name.iter().chain(material))
+    };
+    Asset: |asset| asset.path.len() + asset.bytes.len();
+    Configuration: |configuration| ENTRY + letters([&configuration.name]);
+    JointValue: |value| PART + letters([&value.name]);
+    Closing: |closing| ENTRY + letters(&closing.name);
+    Coupled: |coupled| {
+        ENTRY + letters(coupled.name.iter().chain(coupled.terms.iter().map(|(name, _)| name)))
+    };
+    GazeboElement: |element| ENTRY + letters([&element.0]);
 }

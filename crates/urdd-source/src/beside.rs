@@ -59,7 +59,6 @@ pub(super) fn companion(path: &Path, limit: u64, gate: &Gate) -> Option<Companio
     Some(bytes.and_then(text))
 }
 
-/// Bytes as a text.
 pub(super) fn text(bytes: Vec<u8>) -> Companion {
     String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
 }

@@ -143,10 +143,8 @@ pub fn decode(bytes: &[u8], shown: &str, notes: &mut Vec<Note>) -> Result<Decode
         }
         None => {
             if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
-                return Err(SourceError::Read {
-                    file: shown.to_owned(),
-                    reason: format!("it is not a text file: its byte {at} is 0; give a URDF"),
-                });
+                let reason = format!("it is not a text file: its byte {at} is 0; give a URDF");
+                return Err(SourceError::unread(shown, reason));
             }
             let problem = "the file is not UTF-8, and declares no other encoding".to_owned();
             note(problem, "read as windows-1252, carried in UTF-8");
@@ -155,10 +153,8 @@ pub fn decode(bytes: &[u8], shown: &str, notes: &mut Vec<Note>) -> Result<Decode
     };
     let (text, had_errors) = encoding.decode_without_bom_handling(bytes);
     if had_errors {
-        return Err(SourceError::Read {
-            file: shown.to_owned(),
-            reason: format!("it is not valid {}; save it as UTF-8", encoding.name()),
-        });
+        let reason = format!("it is not valid {}; save it as UTF-8", encoding.name());
+        return Err(SourceError::unread(shown, reason));
     }
     Ok(of(text.into_owned(), encoding))
 }

@@ -108,7 +108,6 @@ pub fn describe(
     Description { files, included, uncalled }
 }
 
-/// A file that was read.
 struct Text {
     file: MacroFile,
     /// The files that it includes, by their names as they are written; `None` if it is not known which.

@@ -81,7 +81,6 @@ impl Door for OneFile {
     }
 }
 
-/// What is known of a file.
 struct Known {
     /// The files that it names, symbolic links resolved.
     names: Vec<PathBuf>,

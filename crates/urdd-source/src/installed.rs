@@ -6,7 +6,7 @@ use std::path::Path;
 use urdd_directory::limits::MAX_MANIFEST_BYTES;
 
 use crate::files::Files;
-use crate::launch::{Token, tokens};
+use crate::suggested::{Token, tokens};
 
 /// Maximum length of a value that a variable stands for, in bytes: it may be put in very often.
 pub const MAX_VALUE: usize = 255;
@@ -23,7 +23,6 @@ pub struct Rule {
 /// What a package installs.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Installed {
-    /// What it installs.
     pub rules: Vec<Rule>,
     /// The first statement that was not understood: its file, and the line.
     pub unknown: Option<(&'static str, u32)>,

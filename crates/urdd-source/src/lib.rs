@@ -6,7 +6,6 @@
 
 pub mod arguments;
 pub mod beside;
-mod deciding;
 mod decode;
 pub mod described;
 pub mod dropped;
@@ -17,7 +16,6 @@ mod format;
 pub mod gate;
 mod inspect;
 mod installed;
-mod launch;
 mod load;
 pub mod loops;
 pub mod macros;
@@ -31,6 +29,7 @@ mod resolve;
 pub mod robots;
 mod roots;
 mod settings;
+mod suggested;
 #[cfg(test)]
 mod tests;
 pub mod urdf;

@@ -23,7 +23,6 @@ pub(super) struct PackageIndex {
     linked: Vec<Linked>,
 }
 
-/// A package in a layout.
 struct Linked {
     /// Its place there.
     at: PathBuf,
@@ -166,7 +165,6 @@ impl Linked {
 /// What ends a path in a text of xacro.
 const ENDS_PATH: [char; 9] = ['"', '\'', '<', '>', ' ', '\n', ')', ',', ';'];
 
-/// Maximum number of links of a package.
 const MOST_LINKS: usize = 10_000;
 
 /// Lays out the package in `folder` at a path where nothing is: what it installs, and for the rest its sources as they are.

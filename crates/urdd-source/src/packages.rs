@@ -19,7 +19,6 @@ const MOST_FOLDERS: usize = 20_000;
 const MOST_OF_WORKSPACE: usize = 2000;
 /// Maximum number of entries of a folder.
 pub(super) const MOST_NAMES: usize = 1000;
-/// Maximum number of packages of an installation.
 const MOST_INSTALLED: usize = 2000;
 /// Files that say that a folder has no packages for others. colcon's own folders, `build`, `install` and `log`, have one.
 pub(super) const IGNORED: [&str; 3] = ["COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"];
@@ -103,7 +102,6 @@ impl Packages {
         }
     }
 
-    /// Those packages, by name.
     pub(super) fn known(&self) -> &BTreeMap<String, PathBuf> {
         &self.known
     }

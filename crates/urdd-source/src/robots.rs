@@ -98,7 +98,6 @@ pub struct Batch {
     pub wanted: BTreeSet<PathBuf>,
 }
 
-/// Maximum number of macros that are named one by one.
 const MAX_NAMED: usize = 5;
 
 impl Batch {
@@ -238,7 +237,6 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
     Ok(batch)
 }
 
-/// A path with symbolic links resolved.
 fn resolved(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
@@ -276,7 +274,6 @@ pub(crate) fn named(robots: Vec<Declared>) -> Vec<Job> {
     robots.into_iter().zip(names).map(job).collect()
 }
 
-/// What a folder holds.
 #[derive(Default)]
 struct Found {
     /// URDFs and xacro files.
@@ -285,7 +282,6 @@ struct Found {
     packages: Vec<(String, PathBuf)>,
     /// What may be of another format.
     others: Vec<PathBuf>,
-    /// Whether there is a URDD.
     has_urdd: bool,
     /// The first folder that is passed over for a file in it, and that file's name.
     ignored: Option<(PathBuf, &'static str)>,
@@ -356,7 +352,6 @@ fn expansion(xacro: &Path) -> PathBuf {
     if FileType::Urdf.is_of(&stem) { stem } else { stem.with_extension("urdf") }
 }
 
-/// A unique name for each robot.
 fn names(sources: &[Declared]) -> Vec<String> {
     let parts: Vec<Vec<String>> = sources.iter().map(parts).collect();
     let mut used = vec![1; sources.len()];

@@ -70,7 +70,6 @@ impl Roots {
         self.allowed.push(folder);
     }
 
-    /// The packages around the URDF's folder.
     pub fn around(&self, urdf_folder: &Path) -> &[Around] {
         self.around.get_or_init(|| around(urdf_folder, &self.files))
     }
@@ -81,14 +80,12 @@ impl Roots {
         all.get(package).map(PathBuf::as_path)
     }
 
-    /// What the package in a folder installs.
     pub fn installed(&self, folder: &Path) -> Arc<Installed> {
         let mut known = self.installed.lock().unwrap_or_else(PoisonError::into_inner);
         let of = || Arc::new(installed::installed(folder, &self.files));
         Arc::clone(known.entry(folder.to_owned()).or_insert_with(of))
     }
 
-    /// Where the files are.
     pub fn files(&self) -> &Files {
         &self.files
     }
@@ -123,7 +120,6 @@ impl Roots {
         is_allowed.then_some(Place::Allowed)
     }
 
-    /// Whether a file is in the robot's own folder.
     pub fn is_own(&self, file: &Path) -> bool {
         file.starts_with(&self.own)
     }

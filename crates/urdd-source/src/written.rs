@@ -107,7 +107,6 @@ struct Marked<'a> {
     text: &'a str,
     /// Each element with its number and no name, followed by its attributes with their names.
     marks: Vec<(usize, usize, &'a str)>,
-    /// Number of elements.
     count: usize,
     macros: Vec<String>,
     /// The innermost macro around each element.

@@ -57,10 +57,8 @@ pub fn is_remote(asset: &str) -> bool {
     })
 }
 
-/// The first bytes of a package.
 pub const PACKAGE_START: &[u8] = b"PK\x03\x04";
 
-/// A package.
 pub struct Package {
     archive: ZipArchive<Cursor<Arc<[u8]>>>,
     size: u64,
@@ -80,7 +78,6 @@ impl Package {
         Ok(first.name().to_owned())
     }
 
-    /// The content of an entry.
     pub fn read(&mut self, name: &str, door: &mut dyn Door) -> Result<Arc<[u8]>, Fault> {
         let entry = self.archive.by_name(name).map_err(|why| match why {
             ZipError::FileNotFound => {

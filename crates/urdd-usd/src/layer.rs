@@ -21,7 +21,6 @@ pub struct Layer {
 /// What a layer says of a prim or of a variant of one.
 #[derive(Debug)]
 pub struct Spec {
-    /// The name.
     pub name: Name,
     /// The nesting: 0 of the layer.
     pub level: u32,
@@ -29,7 +28,6 @@ pub struct Spec {
     pub line: u32,
     /// Metadata: `specifier`, `typeName` and all others.
     pub fields: Vec<(Name, Value)>,
-    /// Children, in order.
     pub children: Vec<u32>,
     /// Attributes and relationships.
     pub properties: Vec<PropertySpec>,
@@ -38,7 +36,6 @@ pub struct Spec {
 /// What a layer says of an attribute or relationship.
 #[derive(Debug)]
 pub struct PropertySpec {
-    /// The name.
     pub name: Name,
     /// Whether it is a relationship.
     pub is_relationship: bool,

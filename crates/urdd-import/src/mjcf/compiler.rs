@@ -10,15 +10,6 @@ use super::reading::{Attributes, Element, View, wrong};
 use crate::fault::MjcfFault;
 use crate::place::{Fallible, Place, at};
 
-/// When masses come from shapes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FromShapes {
-    Never,
-    Always,
-    /// Where a body says no mass.
-    Auto,
-}
-
 /// How a model is read.
 #[derive(Debug, Clone)]
 pub struct Compiler {
@@ -32,7 +23,8 @@ pub struct Compiler {
     pub texture_folder: String,
     /// Whether folders are cut off the names of files.
     pub strips_paths: bool,
-    pub from_shapes: FromShapes,
+    /// Whether masses come from shapes; none: where a body says no mass.
+    pub from_shapes: Option<bool>,
     pub mass_groups: RangeInclusive<i64>,
     pub balances: bool,
     pub least_mass: f64,
@@ -88,7 +80,7 @@ impl Compiler {
             mesh_folder: String::new(),
             texture_folder: String::new(),
             strips_paths: false,
-            from_shapes: FromShapes::Auto,
+            from_shapes: None,
             mass_groups: 0..=5,
             balances: false,
             least_mass: 0.0,
@@ -154,12 +146,8 @@ impl Compiler {
         }
         let words = ["false", "true", "auto"];
         let from = element.word("inertiafromgeom", &words, "`false`, `true` or `auto`")?;
-        self.from_shapes = match from {
-            Some(0) => FromShapes::Never,
-            Some(1) => FromShapes::Always,
-            Some(_) => FromShapes::Auto,
-            None => self.from_shapes,
-        };
+        self.from_shapes =
+            from.map_or(self.from_shapes, |which| [Some(false), Some(true), None][which]);
         if let Some([first, last]) = element.numbers::<2>("inertiagrouprange")? {
             #[expect(clippy::cast_possible_truncation, reason = "groups are few")]
             let groups = first.ceil() as i64..=last.floor() as i64;

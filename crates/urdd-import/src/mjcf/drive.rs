@@ -129,9 +129,8 @@ pub fn give_all(
     }
     let follows =
         |joint: &&Joint| joint.mimic.is_some() && (joint.kp.is_some() || joint.armature.is_some());
-    for _ in bodies.iter().flat_map(|body| &body.joints).filter(follows) {
-        tally.count(features::MORE_GAINS);
-    }
+    let following = bodies.iter().flat_map(|body| &body.joints).filter(follows).count();
+    tally.add(features::MORE_GAINS, following);
     Ok(())
 }
 

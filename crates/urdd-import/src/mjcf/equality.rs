@@ -30,14 +30,10 @@ pub fn equalities<'d>(
 ) -> Fallible<()> {
     let mut closings = Charged::default();
     let placed = Placed::of(made);
-    for element in root.sections("equality") {
-        let is_tie = matches!(element.tag.as_str(), "connect" | "weld" | "distance");
-        if !is_tie {
-            continue;
-        }
+    let is_tie = |of: &&Element| matches!(of.tag.as_str(), "connect" | "weld" | "distance");
+    for element in root.sections("equality").filter(is_tie) {
         let view = View::new(element, defaults, MAIN)?;
-        let closing = tie(view, is_active(view)?, all, lookup, (made, &placed), tally)?;
-        if let Some(closing) = closing {
+        if let Some(closing) = tie(view, all, lookup, (made, &placed), tally)? {
             closings.push(closing, account).at(element.place)?;
         }
     }
@@ -47,9 +43,8 @@ pub fn equalities<'d>(
         match element.tag.as_str() {
             "joint" if is_active(view)? => couple(view, all, lookup, made, tally, account)?,
             "joint" => {
-                tally.count(features::COUPLINGS);
-                tally
-                    .remark(element.place, "the equality is not active, so its joint moves freely");
+                let text = "the equality is not active, so its joint moves freely";
+                tally.say(features::COUPLINGS, element.place, text);
             }
             "connect" | "weld" | "distance" => {}
             "tendon" => tally.count(features::TENDONS),
@@ -60,25 +55,19 @@ pub fn equalities<'d>(
 }
 
 fn is_active(view: View<'_>) -> Fallible<bool> {
-    Ok(match view.element.flag("active")? {
-        Some(active) => active,
-        None => {
-            let of_class = view.equality_default();
-            of_class.map_or(Ok(None), |of| of.flag("active"))?.unwrap_or(true)
-        }
-    })
+    let of_class = view.equality_default().filter(|_| view.element.get("active").is_none());
+    Ok(of_class.unwrap_or(view.element).flag("active")?.unwrap_or(true))
 }
 
 /// Two bodies that are tied to each other, beside the tree.
 fn tie(
     view: View<'_>,
-    is_active: bool,
     all: &[RawBody<'_>],
     lookup: &Lookup<'_>,
     (made, placed): (&Made, &Placed<'_>),
     tally: &mut Tally,
 ) -> Fallible<Option<Closing>> {
-    let element = view.element;
+    let (element, is_active) = (view.element, is_active(view)?);
     let named = |key| element.text(key).map(|name| Short::of(name).to_string());
     let sites = [named("site1"), named("site2")];
     let names = [element.text("body1"), element.text("body2")];
@@ -117,7 +106,6 @@ fn tie(
         }
         feature = features::TIES;
     }
-    tally.count(feature);
     let [one, other] = who;
     let at = match named("anchor").filter(|_| element.tag == "connect") {
         Some(anchor) => format!(" at {anchor} of `{one}`"),
@@ -125,7 +113,7 @@ fn tie(
     };
     let name = named("name").map(|name| format!(" `{name}`")).unwrap_or_default();
     let text = format!("the {}{name} of `{one}` and `{other}`{at} {what}", element.tag);
-    tally.remark(element.place, text.replace(char::is_control, " "));
+    tally.say(feature, element.place, text.replace(char::is_control, " "));
     Ok(None)
 }
 
@@ -172,36 +160,30 @@ fn couple(
             made.bodies[body].joints[place].mimic = Some(Mimic { joint, multiplier: c1, offset });
             made.leaders.insert((body, place), (leading_body, leading_place));
             tally.count(features::MIMICS);
-        } else if let Some((leader, at_leader)) = leading
-            .filter(|(leader, _)| is_plain(*leader) && is_plain(follower) && *leader != follower)
-        {
-            let name = |(body, place): (usize, usize)| made.bodies[body].joints[place].name.clone();
-            let [of_follower, of_leader] = [follower, leader].map(|at| raw(at).reference);
-            let powers = [c0, c1].into_iter().chain(rest.iter().map(|of| of.unwrap_or(0.0)));
-            let (moved, coefficients) = about_zero(&powers.collect::<Vec<_>>(), of_leader);
-            let coupled = Coupled {
-                name: element.text("name").map(|name| format!("{name}{suffix}")),
-                constant: -of_follower - moved,
-                terms: vec![
-                    (name((body, place)), vec![1.0]),
-                    (name(at_leader), coefficients.iter().map(|of| -of).collect()),
-                ],
-            };
-            tally.count(features::POLYNOMIALS);
-            made.couplings.push(coupled, account).at(element.place)?;
-        } else if names[1].is_none() && is_plain(follower) {
+            continue;
+        }
+        let name = |(body, place): (usize, usize)| made.bodies[body].joints[place].name.clone();
+        let (own, reference) = ((name((body, place)), vec![1.0]), raw(follower).reference);
+        let equation = match leading.filter(|_| is_plain(follower)) {
+            Some((leader, at)) if is_plain(leader) && leader != follower => {
+                let powers = [c0, c1].into_iter().chain(rest.iter().map(|of| of.unwrap_or(0.0)));
+                let powers: Vec<f64> = powers.collect();
+                let (moved, coefficients) = about_zero(&powers, raw(leader).reference);
+                let of_leader = coefficients.iter().map(|of| -of).collect();
+                Some((-reference - moved, vec![own, (name(at), of_leader)]))
+            }
             // y - y0 = c0
-            let coupled = Coupled {
-                name: element.text("name").map(|name| format!("{name}{suffix}")),
-                constant: -raw(follower).reference - c0,
-                terms: vec![(made.bodies[body].joints[place].name.clone(), vec![1.0])],
-            };
+            None if names[1].is_none() && is_plain(follower) => Some((-reference - c0, vec![own])),
+            _ => None,
+        };
+        if let Some((constant, terms)) = equation {
+            let name = element.text("name").map(|name| format!("{name}{suffix}"));
             tally.count(features::POLYNOMIALS);
-            made.couplings.push(coupled, account).at(element.place)?;
+            made.couplings.push(Coupled { name, constant, terms }, account).at(element.place)?;
         } else {
-            tally.count(features::COUPLINGS);
             let reason = reason.unwrap_or_default();
-            tally.remark(element.place, format!("an equality of joints is left out: {reason}"));
+            let text = format!("an equality of joints is left out: {reason}");
+            tally.say(features::COUPLINGS, element.place, text);
         }
     }
     Ok(())

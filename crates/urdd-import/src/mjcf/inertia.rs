@@ -5,7 +5,7 @@ use urdd_geometry::mesh::Bounds;
 
 use super::assets::Assets;
 use super::body::RawBody;
-use super::compiler::{Compiler, FromShapes, orientation};
+use super::compiler::{Compiler, orientation};
 use super::geom::{Geom, GeomKind};
 use super::mesh::Meshes;
 use super::reading::{Attributes, View, missing};
@@ -28,12 +28,7 @@ pub fn inertial(
 ) -> Fallible<Option<Inertial>> {
     let mut part = body.inertial.map(|view| said(view, compiler)).transpose()?;
     let place = body.inertial.map_or(body.place, |view| view.element.place);
-    let is_from_shapes = match compiler.from_shapes {
-        FromShapes::Never => false,
-        FromShapes::Always => true,
-        FromShapes::Auto => part.is_none(),
-    };
-    if is_from_shapes {
+    if compiler.from_shapes.unwrap_or(part.is_none()) {
         let mut parts = Vec::new();
         for (geom, fitted) in body.geoms.iter().zip(fitted) {
             if compiler.mass_groups.contains(&geom.group) {

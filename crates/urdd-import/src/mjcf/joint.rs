@@ -135,7 +135,7 @@ pub enum Law {
     Other,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Actuator {
     pub law: Law,
     /// Whether its control goes through a filter or an integrator.
@@ -163,30 +163,11 @@ struct Range {
     limited: Option<usize>,
 }
 
-impl Default for Actuator {
-    fn default() -> Self {
-        Actuator {
-            law: Law::Gain,
-            has_state: false,
-            gear: 1.0,
-            gain: 1.0,
-            stiffness: 0.0,
-            damping: 0.0,
-            constant: 0.0,
-            inherited: 0.0,
-            joint_damping: 0.0,
-            armature: 0.0,
-            force: Range::default(),
-            control: Range::default(),
-        }
-    }
-}
-
 impl Actuator {
     /// What an element says, after the classes around it, the outermost first. What makes the force is taken from a class
     /// only if the last actuator in it is of the same kind, or `<general>`.
     pub fn of(element: &Element, classes: &[Vec<&Element>]) -> Fallible<Self> {
-        let mut actuator = Actuator::default();
+        let mut actuator = Actuator { gear: 1.0, gain: 1.0, ..Actuator::default() };
         for class in classes {
             let kind = class.last().map_or("general", |last| last.tag.as_str());
             let is_kin = kind == "general" || element.tag == "general" || kind == element.tag;

@@ -173,8 +173,8 @@ impl<'d> Meshes<'d> {
             Err(reason) => {
                 let file = asset.file.unwrap_or(name).to_owned();
                 let why = Unreachable::NotMesh { file, reason: reason.clone() };
-                tally.count(features::MISSING_MESHES);
-                tally.remark(asset.view.element.place, format!("{why}; it is left out"));
+                let text = format!("{why}; it is left out");
+                tally.say(features::MISSING_MESHES, asset.view.element.place, text);
                 return Ok(None);
             }
         };

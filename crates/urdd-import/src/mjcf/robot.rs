@@ -170,9 +170,7 @@ impl<'d> Maker<'_, 'd> {
             .map(|((place, geom), fitted)| (geom, fitted, is_visual((place, geom))))
             .filter(|(.., is_visual)| !(*is_visual && discards))
             .collect();
-        for _ in parts.len()..geoms.len() {
-            self.tally.count(features::DISCARDED);
-        }
+        self.tally.add(features::DISCARDED, geoms.len() - parts.len());
         let seen = self.seen.of_body(&parts, &mut self.meshes, &self.assets)?;
         for ((geom, fitted, is_visual), is_seen) in parts.into_iter().zip(seen) {
             let is_seen = is_seen && !self.materials.is_clear(geom, &self.meshes)?;
@@ -272,11 +270,8 @@ pub fn configurations(
             }
         }
         if bodies.is_partial {
-            tally.count(features::SOFT);
-            tally.remark(
-                key.place,
-                "the key is left out: it also has positions of what is not read",
-            );
+            let text = "the key is left out: it also has positions of what is not read";
+            tally.say(features::SOFT, key.place, text);
             continue;
         }
         let numbers = list(key, "qpos", usize::MAX)?;

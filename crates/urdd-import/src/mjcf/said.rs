@@ -54,19 +54,13 @@ pub fn say(root: &Element, tally: &mut Tally) {
             }
             "default" | "worldbody" | "asset" | CLASSES => inside(section, tally),
             "contact" | "actuator" | "equality" | "keyframe" => each(section, tally),
-            "tendon" => count(section, features::TENDONS, tally),
-            "sensor" => count(section, features::MEASURED, tally),
-            "deformable" => count(section, features::SOFT, tally),
+            "tendon" => tally.add(features::TENDONS, section.children.len()),
+            "sensor" => tally.add(features::MEASURED, section.children.len()),
+            "deformable" => tally.add(features::SOFT, section.children.len()),
             KEYS => section.children.iter().for_each(|_| tally.unread("keys of attached models")),
-            "custom" => count(section, features::OWN_DATA, tally),
+            "custom" => tally.add(features::OWN_DATA, section.children.len()),
             tag => tally.unread(format!("<{tag}>")),
         }
-    }
-}
-
-fn count(section: &Element, feature: features::Feature, tally: &mut Tally) {
-    for _ in &section.children {
-        tally.count(feature);
     }
 }
 

@@ -156,9 +156,8 @@ pub fn branches(scene: &Scene, frames: &Frames, tally: &mut Tally) -> Fallible<T
         }
         if !branches.is_empty() {
             let node = &scene.nodes[scene.links[link].node];
-            tally.count(features::DETACHED);
             let text = format!("no joint holds link `{}`: it is fixed to the root", node.name);
-            tally.remark(node.place, text);
+            tally.say(features::DETACHED, node.place, text);
         }
         forest.grow(Branch { body: link, joint: None, is_turned: false }, &mut branches);
     }

@@ -120,8 +120,8 @@ fn said_of_axis(reader: &mut SdfReader, axis: Tag, joint: &str) {
     if let Some(dynamics) = axis.child("dynamics") {
         let spring = dynamics.number("spring_stiffness");
         if spring.ok().flatten().is_some_and(|stiffness| stiffness != 0.0) {
-            tally.count(features::SPRINGS);
-            tally.remark(axis.place(), format!("the spring of joint `{joint}` is lost"));
+            let text = format!("the spring of joint `{joint}` is lost");
+            tally.say(features::SPRINGS, axis.place(), text);
         }
     }
     for stop in ["stiffness", "dissipation"] {

@@ -79,10 +79,9 @@ pub fn inertial(link: Tag, tally: &mut Tally) -> Fallible<Inertial> {
             tally.count(features::AUTO_MASSES);
             return Ok(inertial);
         }
-        tally.remark(
-            tag.place(),
-            "the mass follows from shapes, and no shape here gives one: it is read as it is given",
-        );
+        let text =
+            "the mass follows from shapes, and no shape here gives one: it is read as it is given";
+        tally.remark(tag.place(), text);
     }
     let (pose, _) = tag.pose()?;
     let mass = tag.number("mass")?;
@@ -340,8 +339,8 @@ fn asset(
         Ok(asset) => Ok(Some(asset)),
         // A file that is not there, or is something else, is left out, as Gazebo does.
         Err(ImportFault::File(why)) if !matches!(why, Unreachable::Outside { .. }) => {
-            reader.tally.count(features::MISSING_MESHES);
-            reader.tally.remark(tag.place(), format!("{why}; it is left out"));
+            let text = format!("{why}; it is left out");
+            reader.tally.say(features::MISSING_MESHES, tag.place(), text);
             Ok(None)
         }
         Err(why) => Err(at(tag.place(), why)),

@@ -19,12 +19,12 @@ use urdd_source::gate::Gate;
 use crate::fault::{ImportFault, SdfFault};
 use crate::features::{self, Tally};
 use crate::model::{LETTER, Model};
-use crate::place::{Fallible, Place, Placed, TextFile, at, placed};
+use crate::place::{Fallible, Placed, TextFile, at, placed};
 use bodies::bodies;
 use joint_reader::world_joints;
 use libsdformat::say_refusals;
-use models::{Included, Overrides, find, included, model};
-use reader::{SdfReader, keep_plugins, keep_posed, keep_static};
+use models::{Overrides, find, include, model};
+use reader::{SdfReader, keep_posed, keep_static};
 use scene::Frames;
 use tag::Tag;
 
@@ -123,27 +123,12 @@ pub fn read_chosen(
         "model" => {
             (chosen.name.clone(), model(reader, chosen.tag, None, &Overrides::default(), 0)?)
         }
-        _ => read_included(reader, chosen.tag)?,
+        _ => include(reader, chosen.tag, None, 0)?,
     };
     if let Some(world) = chosen.world {
         world_joints(reader, world, &name)?;
     }
     Ok((name, is_static))
-}
-
-fn read_included(reader: &mut SdfReader, tag: Tag) -> Fallible<(String, bool)> {
-    let Included { file, overrides } = included(reader, tag)?;
-    let place: Place = tag.place();
-    let read = reader.include(&file, place, |reader, root| {
-        say_refusals(root, &mut reader.tally);
-        let Some(inside) = root.child("model") else {
-            return Err(at(place, SdfFault::IncludesNone(file.file.display().to_string())));
-        };
-        let name = overrides.name.as_deref().or(inside.attribute("name")).unwrap_or_default();
-        Ok((name.to_owned(), model(reader, inside, None, &overrides, 0)?))
-    })?;
-    keep_plugins(reader, tag)?;
-    Ok(read)
 }
 
 /// A model, or what includes one.

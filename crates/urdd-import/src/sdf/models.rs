@@ -54,16 +54,7 @@ pub fn model(
                 model(reader, child, Some(scope), &Overrides::default(), depth + 1)?;
             }
             "include" => {
-                let Included { file, overrides } = included(reader, child)?;
-                reader.include(&file, child.place(), |reader, root| {
-                    say_refusals(root, &mut reader.tally);
-                    let Some(inside) = root.child("model") else {
-                        let file = file.file.display().to_string();
-                        return Err(at(child.place(), SdfFault::IncludesNone(file)));
-                    };
-                    model(reader, inside, Some(scope), &overrides, depth + 1)
-                })?;
-                keep_plugins(reader, child)?;
+                include(reader, child, Some(scope), depth + 1)?;
             }
             "plugin" | "gripper" => keep(reader, child, None)?,
             name if SETTINGS.contains(&name) && parent.is_none() => {
@@ -175,17 +166,32 @@ pub struct Overrides {
     pub is_merged: bool,
 }
 
-/// A file, and what is said of the model in it.
-pub struct Included {
-    pub file: FoundMesh,
-    pub overrides: Overrides,
+/// Reads the model that an `<include>` names, as [`model`] does. Gives its name, too.
+pub fn include(
+    reader: &mut SdfReader,
+    tag: Tag,
+    parent: Option<usize>,
+    depth: usize,
+) -> Fallible<(String, bool)> {
+    let (file, overrides) = included(reader, tag)?;
+    let read = reader.include(&file, tag.place(), |reader, root| {
+        say_refusals(root, &mut reader.tally);
+        let Some(inside) = root.child("model") else {
+            let file = file.file.display().to_string();
+            return Err(at(tag.place(), SdfFault::IncludesNone(file)));
+        };
+        let name = overrides.name.as_deref().or(inside.attribute("name")).unwrap_or_default();
+        Ok((name.to_owned(), model(reader, inside, parent, &overrides, depth)?))
+    })?;
+    keep_plugins(reader, tag)?;
+    Ok(read)
 }
 
 /// Finds the file that an `<include>` names.
 ///
 /// # Errors
 /// If there is none, or what it says is not read.
-pub fn included(reader: &mut SdfReader, tag: Tag) -> Fallible<Included> {
+fn included(reader: &mut SdfReader, tag: Tag) -> Fallible<(FoundMesh, Overrides)> {
     let Some(uri) = tag.words("uri") else {
         return tag.lacks("uri");
     };
@@ -195,16 +201,14 @@ pub fn included(reader: &mut SdfReader, tag: Tag) -> Fallible<Included> {
     tag.unread(OF_INCLUDE, &mut reader.tally);
     let pose = tag.child("pose").map(|_| tag.pose()).transpose()?;
     reader.tally.count(features::INCLUDES);
-    Ok(Included {
-        file: find(reader, tag, &uri)?,
-        overrides: Overrides {
-            name: tag.words("name"),
-            pose,
-            placement: tag.words("placement_frame"),
-            is_static: tag.words("static").map(|text| is_true(&text)),
-            is_merged: tag.says("merge"),
-        },
-    })
+    let overrides = Overrides {
+        name: tag.words("name"),
+        pose,
+        placement: tag.words("placement_frame"),
+        is_static: tag.words("static").map(|text| is_true(&text)),
+        is_merged: tag.says("merge"),
+    };
+    Ok((find(reader, tag, &uri)?, overrides))
 }
 
 /// The file of a URI: itself, or the model of the folder that it names. libsdformat looks for what is behind any scheme,

@@ -17,7 +17,7 @@ use crate::fault::SdfFault;
 use crate::features::{self, Tally};
 use crate::graph::{limits, say_closed};
 use crate::model::{Body, Closing, Coupled, End, Joint as Moving, JointKind, Mimic};
-use crate::place::{Fallible, Place, at};
+use crate::place::{Fallible, at};
 
 /// A joint and its links; the number of links means the world.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -158,13 +158,12 @@ pub fn needs_links(moves: &[Moving]) -> bool {
 /// A joint that was turned round is said.
 pub fn say_turned(scene: &Scene, joint: &Joint, tally: &mut Tally) {
     let node = &scene.nodes[joint.node];
-    let place: Place = node.place;
-    tally.count(features::TURNED);
     let words = match joint.kind {
         SdfJointKind::Ball => "the values of this ball are those of the opposite rotation",
         _ => "its values keep their meaning",
     };
-    tally.remark(place, format!("joint `{}` leads to its parent here: {words}", node.name));
+    let text = format!("joint `{}` leads to its parent here: {words}", node.name);
+    tally.say(features::TURNED, node.place, text);
 }
 
 /// The axes of a universal joint are at a right angle within this.
@@ -205,12 +204,11 @@ pub fn closing(
     };
     let bodies = at.get(parent).copied().flatten().zip(at.get(child).copied().flatten());
     let Some((kind, (a, b))) = kind.zip(bodies).filter(|(_, (a, b))| a != b) else {
-        tally.count(features::OPEN);
         let text = format!(
             "the joint `{}` between `{of_parent}` and `{of_child}` is left out: it closes a chain",
             node.name
         );
-        tally.remark(node.place, text);
+        tally.say(features::OPEN, node.place, text);
         return Ok(None);
     };
     let ranges = joint.axes.iter().map(|axis| axis.range);
@@ -252,10 +250,9 @@ pub fn gearbox(
     }
     let body = |link: usize| at.get(link).copied().flatten();
     let mut lost = |why: &str| {
-        tally.count(features::LOST_GEARBOXES);
         let text =
             format!("the gearbox `{}` is lost, and its joints turn on their own: {why}", node.name);
-        tally.remark(node.place, text);
+        tally.say(features::LOST_GEARBOXES, node.place, text);
         Ok(None)
     };
     if outside.parent == outside.child {

@@ -192,7 +192,7 @@ impl Friction {
     /// The coefficient that all have. Counts those that differ.
     pub fn common(&self, tally: &mut Tally) -> Option<f64> {
         let feature = if self.is_mixed { features::FRICTIONS } else { features::FRICTION };
-        (0..self.given).for_each(|_| tally.count(feature));
+        tally.add(feature, self.given);
         self.first.flatten().filter(|_| !self.is_mixed)
     }
 }

@@ -79,8 +79,8 @@ impl<'g> Assets<'g> {
             other => {
                 self.gate.account().charge(other.as_ref().map_or(0, |of| of.len())).at(place)?;
                 let why = other.err().unwrap_or_else(|| format!("`{path}` is not an image"));
-                tally.count(features::MISSING_MESHES);
-                tally.remark(place, format!("an image is left out: {why}"));
+                let text = format!("an image is left out: {why}");
+                tally.say(features::MISSING_MESHES, place, text);
                 None
             }
         };

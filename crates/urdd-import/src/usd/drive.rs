@@ -46,8 +46,8 @@ pub fn drive(
     if positive(value(&["mjc:stiffness"])).is_some() {
         tally.count(features::SPRINGS);
     }
-    let limits = [value(&["newton:effortLimit", "urdf:limit:effort", "mjc:actuatorfrcrange:max"])];
-    joint.effort = positive(limits[0]).map(|effort| effort * force);
+    let effort = value(&["newton:effortLimit", "urdf:limit:effort", "mjc:actuatorfrcrange:max"]);
+    joint.effort = positive(effort).map(|effort| effort * force);
     let instance = motion.instance;
     if !of.has(&format!("PhysicsDriveAPI:{instance}")) {
         return;
@@ -62,11 +62,9 @@ pub fn drive(
         return;
     }
     if word(of, &format!("drive:{instance}:physics:type")) == Some("acceleration") {
-        tally.count(features::MORE_GAINS);
-        tally.remark(
-            scene.place(prim),
-            format!("the gains of joint `{}` are left out: they are of accelerations", joint.name),
-        );
+        let text =
+            format!("the gains of joint `{}` are left out: they are of accelerations", joint.name);
+        tally.say(features::MORE_GAINS, scene.place(prim), text);
         return;
     }
     tally.count(features::GAINS);

@@ -30,6 +30,8 @@ pub enum Form {
 /// A shape that is not a mesh, stretched.
 pub fn form(of: &Prim, stretch: &Matrix3<f64>, tally: &mut Tally) -> Form {
     let value = |name: &str, none: f64| number(of, name).unwrap_or(none);
+    let radius_name = if of.type_name.ends_with('1') { "radiusTop" } else { "radius" };
+    let radius = |none: f64| value(radius_name, none);
     let is_straight = stretch.clone_owned() == Matrix3::from_diagonal(&stretch.diagonal());
     let scale = stretch.diagonal().abs();
     let axis = match word(of, "axis") {
@@ -58,7 +60,7 @@ pub fn form(of: &Prim, stretch: &Matrix3<f64>, tally: &mut Tally) -> Form {
             }
         }
         "Sphere" => {
-            let radius = value("radius", 1.0);
+            let radius = radius(1.0);
             tally.count(if is_even { features::BOXES } else { features::ELLIPSOIDS });
             match (is_even, is_straight) {
                 (true, _) => Form::Plain(still, Geometry::Sphere(radius * scale.x)),
@@ -67,33 +69,25 @@ pub fn form(of: &Prim, stretch: &Matrix3<f64>, tally: &mut Tally) -> Form {
             }
         }
         "Cylinder" | "Cylinder_1" => {
-            let radius = [value("radius", 1.0), value("radiusTop", 1.0)]
-                [usize::from(of.type_name.ends_with('1'))];
-            let height = value("height", 2.0);
+            let (radius, height) = (radius(1.0), value("height", 2.0));
+            let length = height * scale[axis];
             tally.count(features::BOXES);
             match is_round {
-                true => Form::Plain(
-                    pose,
-                    Geometry::Cylinder { radius: radius * a, length: height * scale[axis] },
-                ),
+                true => Form::Plain(pose, Geometry::Cylinder { radius: radius * a, length }),
                 false => stretched(primitives::cylinder(radius, height), &along),
             }
         }
         "Capsule" | "Capsule_1" => {
-            let radius = [value("radius", 0.5), value("radiusTop", 0.5)]
-                [usize::from(of.type_name.ends_with('1'))];
-            let height = value("height", 1.0);
+            let (radius, height) = (radius(0.5), value("height", 1.0));
+            let length = height * scale[axis];
             tally.count(features::CAPSULES);
             match is_even {
-                true => Form::Plain(
-                    pose,
-                    Geometry::Capsule { radius: radius * a, length: height * scale[axis] },
-                ),
+                true => Form::Plain(pose, Geometry::Capsule { radius: radius * a, length }),
                 false => stretched(primitives::capsule(radius, height), &along),
             }
         }
         "Cone" => {
-            let (radius, height) = (value("radius", 1.0), value("height", 2.0));
+            let (radius, height) = (radius(1.0), value("height", 2.0));
             tally.count(features::CONES);
             let mut mesh = cone();
             mesh.transform(

@@ -154,8 +154,8 @@ impl<'a, 's> Shapes<'a, 's> {
         let faces = match self.faces(prim, &stretch)? {
             Ok(faces) => faces,
             Err(problem) => {
-                tally.count(features::MISSING_MESHES);
-                tally.remark(place, format!("the mesh `{name}` is left out: {problem}"));
+                let text = format!("the mesh `{name}` is left out: {problem}");
+                tally.say(features::MISSING_MESHES, place, text);
                 return Ok(());
             }
         };
@@ -309,9 +309,9 @@ impl<'a, 's> Shapes<'a, 's> {
         if let (Ok(bytes), false) = (written, is_empty) {
             return self.assets.mesh(bytes, name, ending, place).map(Some);
         }
-        tally.count(features::MISSING_MESHES);
         let name = self.scene.name(prim);
-        tally.remark(place, format!("the mesh `{name}` is left out: it has no triangles"));
+        let text = format!("the mesh `{name}` is left out: it has no triangles");
+        tally.say(features::MISSING_MESHES, place, text);
         Ok(None)
     }
 
@@ -333,9 +333,8 @@ impl<'a, 's> Shapes<'a, 's> {
 
 /// Says that an image is left out.
 fn unplaced(scene: &Scene<'_>, prim: usize, tally: &mut Tally) {
-    tally.count(features::MISSING_MESHES);
     let name = scene.name(prim);
     let text =
         format!("the image on `{name}` is left out: the shape does not say where it is on it");
-    tally.remark(scene.place(prim), text);
+    tally.say(features::MISSING_MESHES, scene.place(prim), text);
 }

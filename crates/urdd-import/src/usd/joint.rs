@@ -289,12 +289,9 @@ pub fn graph(
     let main = main_set(scene, joints, &bodies, &index, wanted, &mut forest)?;
     let is_main: Vec<bool> = (0..bodies.len()).map(|body| forest.set(body) == main.set).collect();
     for left in (0..bodies.len()).filter(|body| !is_main[*body]) {
-        tally.count(features::DETACHED_BODIES);
-        let text = format!(
-            "body `{}` is left out: no joint connects it with the robot",
-            scene.name(bodies[left])
-        );
-        tally.remark(scene.place(bodies[left]), text);
+        let name = scene.name(bodies[left]);
+        let text = format!("body `{name}` is left out: no joint connects it with the robot");
+        tally.say(features::DETACHED_BODIES, scene.place(bodies[left]), text);
     }
     let is_of_main = |joint: &usize| {
         joints[*joint].ends.iter().any(|end| end.body.is_some_and(|body| is_main[index[&body]]))

@@ -24,9 +24,7 @@ use crate::tree::Names;
 
 pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallible<Model> {
     let (mut tally, account) = (Tally::default(), gate.account());
-    for _ in 0..scene.stage.sampled {
-        tally.count(features::SAMPLES);
-    }
+    tally.add(features::SAMPLES, scene.stage.sampled);
     say_missing(scene, &mut tally);
     let joints = joints(scene, &mut tally)?;
     let graph = graph(scene, &joints, options.body.as_deref(), &mut tally)?;
@@ -316,12 +314,9 @@ impl Maker<'_, '_> {
             let bodies =
                 joint.ends.map(|end| end.body.and_then(|body| made.index.get(&body).copied()));
             let (Some(kind), [Some(one), Some(other)]) = (kind, bodies) else {
-                tally.count(features::OPEN);
-                let text = format!(
-                    "the joint `{}` is left out: it closes a chain",
-                    self.scene.name(joint.prim)
-                );
-                tally.remark(place, text);
+                let name = self.scene.name(joint.prim);
+                let text = format!("the joint `{name}` is left out: it closes a chain");
+                tally.say(features::OPEN, place, text);
                 continue;
             };
             let ranges = joint.motions.iter().map(|motion| motion.range);
@@ -361,8 +356,8 @@ fn say_missing(scene: &Scene<'_>, tally: &mut Tally) {
         }
     }
     for (prim, error) in &scene.stage.missing {
-        tally.count(features::MISSING_PARTS);
         let place = prim.map_or_else(Default::default, |prim| scene.place(prim));
-        tally.remark(place, format!("a reference is left out: {}", error.fault));
+        let text = format!("a reference is left out: {}", error.fault);
+        tally.say(features::MISSING_PARTS, place, text);
     }
 }

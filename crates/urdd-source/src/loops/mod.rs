@@ -103,10 +103,7 @@ fn text(path: &Path, settings: &Settings) -> Result<String, SourceError> {
 fn beside_text(path: &Path, settings: &Settings) -> Result<String, SourceError> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = settings.files.canonicalize(folder.unwrap_or(Path::new(".")));
-    let folder = folder.map_err(|error| SourceError::Read {
-        file: path.display().to_string(),
-        reason: error.to_string(),
-    })?;
+    let folder = folder.map_err(|why| SourceError::unread(&path.display().to_string(), why))?;
     let gate = Gate::of_project(&folder, settings);
     let text = beside::companion(path, MAX_TOML_BYTES, &gate).unwrap_or_else(|| {
         let is_dangling = settings.files.is_dangling(path);
@@ -120,7 +117,7 @@ fn beside_text(path: &Path, settings: &Settings) -> Result<String, SourceError> 
 fn decoded(path: &Path, text: Companion) -> Result<String, SourceError> {
     // A byte order mark is no part of the text.
     let text = text.map(|text| text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text));
-    text.map_err(|reason| SourceError::Read { file: path.display().to_string(), reason })
+    text.map_err(|reason| SourceError::unread(&path.display().to_string(), reason))
 }
 
 /// The key by which such a file is known.

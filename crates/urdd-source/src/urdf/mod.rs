@@ -30,12 +30,14 @@ pub use reader::{Reading, Tree, written_axis};
 /// If the text is not a valid robot: all faults, in the order of the text.
 pub fn read(xml: &Xml<'_>, file_stem: &str) -> Result<Reading, Vec<PlacedFault>> {
     let document = xml.document().map_err(|error| vec![reader::fault(error, xml.text())])?;
-    let mut reader = reader::read(document, file_stem);
+    let mut reader = UrdfReader::default();
+    reader.robot(document.root_element(), file_stem);
     if reader.faults.is_empty() {
         check(&mut reader, document.root_element().range().start);
     }
     check_materials(&mut reader);
-    let (reading, mut faults) = reader.finish();
+    let UrdfReader { mut reading, mut faults, .. } = reader;
+    reading.remarks.sort_by_key(|remark| remark.offset);
     if faults.is_empty() {
         return Ok(reading);
     }
@@ -52,7 +54,7 @@ pub fn read(xml: &Xml<'_>, file_stem: &str) -> Result<Reading, Vec<PlacedFault>>
 }
 
 /// Checks the robot and fills in its tree. `robot_at` is the byte offset of `<robot>`.
-pub(super) fn check(reader: &mut UrdfReader, robot_at: usize) {
+fn check(reader: &mut UrdfReader, robot_at: usize) {
     same_names(reader);
     if reader.faults.is_empty() {
         ends(reader);
@@ -79,7 +81,7 @@ fn same_names(reader: &mut UrdfReader) {
 }
 
 /// The faults of repeated names, each at its byte offset. `fault` takes the name and the byte offset of the first, until
-/// `read` in `mod.rs` replaces it by the line.
+/// [`read`] replaces it by the line.
 fn twice<'a>(
     names: impl Iterator<Item = (&'a String, usize)>,
     fault: fn(Short, u32) -> Fault,
@@ -307,7 +309,7 @@ fn look(material: &Material) -> Option<(&Option<Color>, &Option<Texture>)> {
 
 /// Notes conflicting looks under one name, materials without a name, and names without a look. (A link may reference a
 /// material that is declared later.)
-pub(super) fn check_materials(reader: &mut UrdfReader) {
+fn check_materials(reader: &mut UrdfReader) {
     let materials = std::mem::take(&mut reader.materials);
     let mut looks = HashMap::new();
     for (_, material) in &materials {

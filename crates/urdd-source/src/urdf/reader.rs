@@ -7,7 +7,7 @@ use urdd_format::short::Short;
 use urdd_format::urdf as v1;
 use urdd_format::urdf::{Joint, UrdfModule};
 use urdd_xml::element::{self, Edit};
-use urdd_xml::{Document, Node, XmlError};
+use urdd_xml::{Node, XmlError};
 
 use crate::fault::{Fault, PlacedFault};
 use crate::note::{NoteKind, Remark};
@@ -16,14 +16,6 @@ use crate::origin::{from_xyzw, has_quaternions};
 /// Maximum number of links, and of joints: indices have 32 bits.
 const MOST: usize = 10_000_000;
 
-/// Reads the robot of a document, and its faults.
-pub(super) fn read(document: &Document<'_>, file_stem: &str) -> UrdfReader {
-    let mut reader = UrdfReader::default();
-    reader.robot(document.root_element(), file_stem);
-    reader
-}
-
-/// Byte offsets of the parts of a joint.
 #[derive(Debug, Clone, Default)]
 pub(super) struct JointPlace {
     pub joint: usize,
@@ -185,12 +177,12 @@ impl UrdfReader {
                 let assumed = "kept as text, without effect";
                 self.remark(NoteKind::Case, element.range().start, problem, assumed);
             }
-            unknown.push(verbatim(element));
+            unknown.push(element.document().input_text()[element.range()].to_owned());
         }
         unknown
     }
 
-    fn robot(&mut self, robot: Element<'_>, file_stem: &str) {
+    pub(super) fn robot(&mut self, robot: Element<'_>, file_stem: &str) {
         let offset = robot.range().start;
         let name = element::name(robot);
         if name != "robot" {
@@ -228,13 +220,6 @@ impl UrdfReader {
         if robot.links.len() > MOST || robot.joints.len() > MOST {
             self.fault(offset, Fault::TooMany(MOST as u32));
         }
-    }
-
-    /// What was read, and the faults.
-    pub(super) fn finish(self) -> (Reading, Vec<(usize, Fault)>) {
-        let UrdfReader { mut reading, faults, .. } = self;
-        reading.remarks.sort_by_key(|remark| remark.offset);
-        (reading, faults)
     }
 
     pub(super) fn origin(&mut self, parent: Element<'_>) -> Option<v1::Origin> {
@@ -378,11 +363,6 @@ macro_rules! element_of_numbers {
 pub(super) use element_of_numbers;
 
 pub(super) type Element<'a> = Node<'a, 'a>;
-
-/// The source text of an element.
-pub(super) fn verbatim(element: Element<'_>) -> String {
-    element.document().input_text()[element.range()].to_owned()
-}
 
 /// A parser error as a fault with its position.
 pub(super) fn fault(error: &XmlError, text: &str) -> PlacedFault {

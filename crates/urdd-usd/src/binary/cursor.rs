@@ -4,6 +4,15 @@
 
 use crate::error::{Fault, Place, Wrong};
 
+/// Methods that read a number of the type that they are called by.
+macro_rules! numbers {
+    ($($number:ident)*) => {
+        $(pub fn $number(&mut self) -> Result<$number, Wrong> {
+            Ok($number::from_le_bytes(self.array()?))
+        })*
+    };
+}
+
 /// A place in bytes, from which they are read. All numbers are little-endian.
 #[derive(Debug, Clone, Copy)]
 pub struct Cursor<'b> {
@@ -21,7 +30,6 @@ impl<'b> Cursor<'b> {
         (Place::Byte(self.at as u64), Fault::Damaged(what))
     }
 
-    /// The next bytes.
     pub fn take(&mut self, count: usize) -> Result<&'b [u8], Wrong> {
         let end = self.at.checked_add(count);
         let Some(taken) = end.and_then(|end| self.bytes.get(self.at..end)) else {
@@ -37,36 +45,10 @@ impl<'b> Cursor<'b> {
         Ok(array)
     }
 
-    pub fn u8(&mut self) -> Result<u8, Wrong> {
-        Ok(self.array::<1>()?[0])
-    }
-
-    pub fn u16(&mut self) -> Result<u16, Wrong> {
-        Ok(u16::from_le_bytes(self.array()?))
-    }
-
-    pub fn u32(&mut self) -> Result<u32, Wrong> {
-        Ok(u32::from_le_bytes(self.array()?))
-    }
-
-    pub fn i32(&mut self) -> Result<i32, Wrong> {
-        Ok(i32::from_le_bytes(self.array()?))
-    }
-
-    pub fn u64(&mut self) -> Result<u64, Wrong> {
-        Ok(u64::from_le_bytes(self.array()?))
-    }
-
-    pub fn i64(&mut self) -> Result<i64, Wrong> {
-        Ok(i64::from_le_bytes(self.array()?))
-    }
+    numbers! { u8 u16 u32 i32 u64 i64 f64 }
 
     pub fn f32(&mut self) -> Result<f64, Wrong> {
         Ok(f64::from(f32::from_le_bytes(self.array()?)))
-    }
-
-    pub fn f64(&mut self) -> Result<f64, Wrong> {
-        Ok(f64::from_le_bytes(self.array()?))
     }
 
     /// A number of bytes or entries, of which each has this many bytes after it.

@@ -13,7 +13,6 @@ const ENTRY: usize = 96;
 /// Bits of what a list has.
 const EXPLICIT: u8 = 1;
 
-/// What entries of a list are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Entries {
     Tokens,

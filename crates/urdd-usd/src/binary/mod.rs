@@ -23,14 +23,12 @@ pub use sections::START;
 const SPEC: usize = 300;
 const FIELD: usize = 64;
 
-/// Kinds of specs.
 const ATTRIBUTE: i64 = 1;
 const PRIM: i64 = 6;
 const ROOT: i64 = 7;
 const RELATIONSHIP: i64 = 8;
 const VARIANT: i64 = 10;
 
-/// Reads a layer.
 pub fn read(bytes: &[u8], door: &mut dyn Door) -> Result<Layer, Wrong> {
     let mut file = Crate::open(bytes, door)?;
     file.read_paths()?;

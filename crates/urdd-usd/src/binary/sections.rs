@@ -18,7 +18,6 @@ const NEWEST: u8 = 13;
 /// Bytes of the entry of a section: 16 of its name, where it begins, its size.
 const SECTION: usize = 32;
 
-/// A crate file.
 pub struct Crate<'b> {
     pub bytes: &'b [u8],
     pub door: &'b mut dyn Door,
@@ -82,13 +81,11 @@ impl<'b> Crate<'b> {
         Ok(file)
     }
 
-    /// Charges memory at a place.
     pub fn charge(&mut self, cursor: &Cursor<'_>, bytes: usize) -> Result<(), Wrong> {
         let charged = self.door.charge(bytes);
         charged.map_err(|why| (Place::Byte(cursor.at as u64), Fault::TooMuch(why)))
     }
 
-    /// The start of a section.
     pub fn section(&self, name: &[u8]) -> Result<Cursor<'b>, Wrong> {
         match self.sections.get(name) {
             Some(start) => Ok(Cursor::new(self.bytes, *start)),
@@ -166,20 +163,17 @@ impl<'b> Crate<'b> {
         Ok(())
     }
 
-    /// A token by its number.
     pub fn token(&self, cursor: &Cursor<'_>, index: u32) -> Result<Name, Wrong> {
         let token = self.tokens.get(index as usize);
         token.cloned().ok_or_else(|| cursor.damaged("a token is missing"))
     }
 
-    /// A string by its number.
     pub fn string(&self, cursor: &Cursor<'_>, index: u32) -> Result<Name, Wrong> {
         let token = self.strings.get(index as usize);
         self.token(cursor, *token.ok_or_else(|| cursor.damaged("a string is missing"))?)
     }
 }
 
-/// A path.
 #[derive(Debug, Clone)]
 pub struct PathNode {
     /// The path that it is inside of.

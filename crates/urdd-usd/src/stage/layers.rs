@@ -22,7 +22,6 @@ pub struct Loaded {
     pub layer: Layer,
 }
 
-/// All layers.
 pub struct Layers<'d> {
     pub door: &'d mut dyn Door,
     pub all: Vec<Loaded>,
@@ -33,7 +32,6 @@ pub struct Layers<'d> {
     packages: HashMap<String, Package>,
 }
 
-/// An error of a layer.
 pub fn error(layer: &str, place: Place, fault: Fault) -> UsdError {
     UsdError { layer: Arc::from(layer), place, fault }
 }
@@ -104,20 +102,17 @@ impl<'d> Layers<'d> {
         let path = of.path.clone();
         let mut all = Vec::new();
         for name in names {
-            let named = self.named(layer, &name).map_err(|fault| error(&path, Place::Layer, fault));
-            all.push(self.load_from(&named?, &path, Place::Layer)?);
+            let named =
+                self.named(layer, &name).map_err(|fault| error(&path, Place::Layer, fault))?;
+            let read = self.load(&named).map_err(|mut wrong| {
+                if matches!(wrong.fault, Fault::File { .. }) && *wrong.layer == *named {
+                    (wrong.layer, wrong.place) = (path.clone(), Place::Layer);
+                }
+                wrong
+            });
+            all.push(read?);
         }
         Ok(all)
-    }
-
-    /// A layer that another one names at a place.
-    fn load_from(&mut self, path: &str, layer: &str, place: Place) -> Result<u32, UsdError> {
-        self.load(path).map_err(|mut fault| {
-            if matches!(fault.fault, Fault::File { .. }) && &*fault.layer == path {
-                (fault.layer, fault.place) = (Arc::from(layer), place);
-            }
-            fault
-        })
     }
 
     /// Reads a layer, if it was not read yet.

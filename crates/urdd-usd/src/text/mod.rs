@@ -37,7 +37,6 @@ pub fn read(bytes: &[u8]) -> Result<Layer, Wrong> {
     Ok(reader.layer)
 }
 
-/// What is open.
 enum Open {
     /// A prim or a variant.
     Spec(u32),

@@ -28,7 +28,6 @@ impl Reader<'_> {
         name
     }
 
-    /// A value of any type.
     pub fn value(&mut self, level: usize) -> Result<Value, Wrong> {
         Ok(match self.lexer.next()? {
             Token::Number(number) => Value::Number(number),
@@ -242,7 +241,6 @@ pub enum Edit {
 }
 
 impl Edit {
-    /// The edit of a word.
     pub fn of(word: &str) -> Option<Self> {
         match word {
             "add" => Some(Edit::Add),
