@@ -172,53 +172,6 @@ pub fn seen_from(file: &Path, folder: &Path) -> String {
     file.to_string_lossy().into_owned()
 }
 
-#[cfg(test)]
-mod tests {
-    use std::path::Path;
-
-    use super::WrittenMap;
-    use crate::xacro::Trail;
-    use urdd_directory::position::Position;
-
-    const MACROS: &str = "<robot xmlns:xacro='x'>\n<xacro:macro name='é'>\n é <link\n  \
-        name='${p}a'/></xacro:macro>\n<link name='b'/></robot>\n";
-    const EXPANDED: &str = "<robot name='r'><link name='la'/><link name='b'/><new/></robot>";
-
-    #[test]
-    #[expect(clippy::disallowed_methods, reason = "a test writes as it likes")]
-    fn places_are_those_of_elements_and_attributes_in_their_files() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let root = folder.path().canonicalize().expect("a folder");
-        let [main, macros] = ["urdf/a.xacro", "parts/m.xacro"].map(|name| root.join(name));
-        for file in [&main, &macros] {
-            std::fs::create_dir(file.parent().expect("a folder")).expect("a folder");
-        }
-        std::fs::write(&main, "<robot name='r'/>").expect("written");
-        std::fs::write(&macros, MACROS).expect("written");
-        let elements = vec![Some((0, 1, 1)), Some((1, 3, 4)), Some((1, 5, 1)), None];
-        let mut trail = Trail { files: vec![main.clone(), macros], elements };
-        let found = |trail: &Trail, main: &Path, column: u32| {
-            let at = Position { line: 1, column };
-            let found = WrittenMap::new(EXPANDED, trail, main).find([at]).remove(&at)?;
-            Some((found.file, found.is_main, found.at.to_string(), found.macro_name))
-        };
-        let column = |part: &str| EXPANDED.find(part).expect("it") as u32 + 1;
-        let in_macro = |at: &str, name: Option<&str>| {
-            Some(("../parts/m.xacro".to_owned(), false, at.to_owned(), name.map(str::to_owned)))
-        };
-        let main_place = Some(("a.xacro".to_owned(), true, "1:1".to_owned(), None));
-        assert_eq!(found(&trail, &main, 1), main_place);
-        assert_eq!(found(&trail, &main, column("<link")), in_macro("3:4", Some("é")));
-        // The attribute is on a line of its own there.
-        assert_eq!(found(&trail, &main, column("name='la'")), in_macro("4:3", Some("é")));
-        assert_eq!(found(&trail, &main, column("name='b'")), in_macro("5:7", None));
-        assert_eq!(found(&trail, &main, column("<new")), None);
-        // A trail of another text.
-        trail.elements.pop();
-        assert_eq!(found(&trail, &main, 1), None);
-    }
-}
-
 /// What a text was made from.
 pub struct Origin<'a> {
     /// The file, as the user named it.
@@ -276,5 +229,52 @@ impl Origin<'_> {
             }
         }
         faults
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::WrittenMap;
+    use crate::xacro::Trail;
+    use urdd_directory::position::Position;
+
+    const MACROS: &str = "<robot xmlns:xacro='x'>\n<xacro:macro name='é'>\n é <link\n  \
+        name='${p}a'/></xacro:macro>\n<link name='b'/></robot>\n";
+    const EXPANDED: &str = "<robot name='r'><link name='la'/><link name='b'/><new/></robot>";
+
+    #[test]
+    #[expect(clippy::disallowed_methods, reason = "a test writes as it likes")]
+    fn places_are_those_of_elements_and_attributes_in_their_files() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let root = folder.path().canonicalize().expect("a folder");
+        let [main, macros] = ["urdf/a.xacro", "parts/m.xacro"].map(|name| root.join(name));
+        for file in [&main, &macros] {
+            std::fs::create_dir(file.parent().expect("a folder")).expect("a folder");
+        }
+        std::fs::write(&main, "<robot name='r'/>").expect("written");
+        std::fs::write(&macros, MACROS).expect("written");
+        let elements = vec![Some((0, 1, 1)), Some((1, 3, 4)), Some((1, 5, 1)), None];
+        let mut trail = Trail { files: vec![main.clone(), macros], elements };
+        let found = |trail: &Trail, main: &Path, column: u32| {
+            let at = Position { line: 1, column };
+            let found = WrittenMap::new(EXPANDED, trail, main).find([at]).remove(&at)?;
+            Some((found.file, found.is_main, found.at.to_string(), found.macro_name))
+        };
+        let column = |part: &str| EXPANDED.find(part).expect("it") as u32 + 1;
+        let in_macro = |at: &str, name: Option<&str>| {
+            Some(("../parts/m.xacro".to_owned(), false, at.to_owned(), name.map(str::to_owned)))
+        };
+        let main_place = Some(("a.xacro".to_owned(), true, "1:1".to_owned(), None));
+        assert_eq!(found(&trail, &main, 1), main_place);
+        assert_eq!(found(&trail, &main, column("<link")), in_macro("3:4", Some("é")));
+        // The attribute is on a line of its own there.
+        assert_eq!(found(&trail, &main, column("name='la'")), in_macro("4:3", Some("é")));
+        assert_eq!(found(&trail, &main, column("name='b'")), in_macro("5:7", None));
+        assert_eq!(found(&trail, &main, column("<new")), None);
+        // A trail of another text.
+        trail.elements.pop();
+        assert_eq!(found(&trail, &main, 1), None);
     }
 }
