@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::Value;
 use testkit::page::assert_between;
 use testkit::repository;
-use urdd_import::report::imported_table;
+use urdd_import::imported_table;
 
 use crate::program::urdd;
 

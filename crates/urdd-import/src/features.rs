@@ -1,11 +1,15 @@
-//! What a description of another format can say, and what an import makes of it: the table of docs/import.md, and the
-//! counts of one robot.
+//! What a description of another format can say, and what an import makes of it: the table of docs/import.md, the counts of
+//! one robot, and the report on it.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use urdd_format::carried::How::{self, Elsewhere, No, Otherwise, Yes};
+use urdd_format::carried::{self, Part, table};
+use urdd_source::Format;
+use urdd_source::note::{Note, NoteKind, SourcePlace};
 
-use super::place::Place;
+use crate::place::{Place, Positions};
 
 /// Something that a description can say, and what becomes of it, by format.
 #[derive(Debug, Clone, Copy)]
@@ -14,9 +18,7 @@ pub struct Feature {
     pub name: &'static str,
     /// From MJCF. [`Elsewhere`]: the format cannot say it.
     pub mjcf: How,
-    /// From SDF.
     pub sdf: How,
-    /// From USD.
     pub usd: How,
 }
 
@@ -136,7 +138,6 @@ const LONGEST_REMARK: usize = 1000;
 /// Something that a person has to know of one robot: what was assumed, or what is left out beside the table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Remark {
-    /// Where.
     pub place: Place,
     /// What is said, and what became of it, as one sentence.
     pub text: String,
@@ -153,9 +154,18 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Counts one.
     pub fn count(&mut self, feature: Feature) {
-        *self.counts.entry(feature.name).or_default() += 1;
+        self.add(feature, 1);
+    }
+
+    pub fn add(&mut self, feature: Feature, number: usize) {
+        *self.counts.entry(feature.name).or_default() += number;
+    }
+
+    /// Counts one, and says what was assumed, or left out.
+    pub fn say(&mut self, feature: Feature, place: Place, text: impl AsRef<str>) {
+        self.count(feature);
+        self.remark(place, text);
     }
 
     /// Counts an element or attribute that is not read and is of meaning for the robot: it is lost.
@@ -173,7 +183,6 @@ impl Tally {
         self.remarks.push(Remark { place, text });
     }
 
-    /// How many there are of a feature.
     pub fn number_of(&self, feature: Feature) -> usize {
         self.counts.get(feature.name).copied().unwrap_or_default()
     }
@@ -182,4 +191,98 @@ impl Tally {
     pub fn all_unread(&self) -> &BTreeMap<String, usize> {
         &self.unread
     }
+}
+
+/// What became of a description.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// The name of the robot.
+    pub robot: String,
+    /// The format.
+    pub format: Format,
+    /// What it has: what, how many, and how it is carried.
+    pub parts: Vec<Part>,
+    /// What else a person has to know.
+    pub remarks: Vec<Note>,
+}
+
+impl Report {
+    /// The report on a description. `elsewhere` names the files that were read from outside of the description's folder.
+    pub fn of(
+        robot: &str,
+        tally: &Tally,
+        format: Format,
+        positions: &Positions<'_>,
+        elsewhere: &BTreeMap<PathBuf, String>,
+    ) -> Self {
+        let counted = ALL.iter().map(|feature| {
+            let count = tally.number_of(*feature);
+            (feature.name.to_owned(), count, how(*feature, format))
+        });
+        let mut parts: Vec<Part> =
+            counted.filter(|(_, count, how)| *count > 0 && *how != How::Elsewhere).collect();
+        let unread = tally.all_unread().iter();
+        parts.extend(unread.map(|(name, count)| (name.clone(), *count, How::No)));
+        let note = |remark: &Remark| {
+            let (file, line, column) = positions.at(remark.place).unwrap_or_default();
+            let place = SourcePlace { file: file.to_owned(), line, column };
+            Note::at(place, NoteKind::Otherwise, &*remark.text, "")
+        };
+        let first = positions.at(Place::default()).map_or("", |(file, ..)| file);
+        let outside = elsewhere.iter().map(|(path, why)| {
+            let path = path.display();
+            let problem = format!("{path} is outside of the description's folder and project");
+            Note::of_file(first, NoteKind::Outside, problem, format!("read, {why}"))
+        });
+        let remarks = tally.remarks.iter().map(note).chain(outside).collect();
+        Report { robot: robot.to_owned(), format, parts, remarks }
+    }
+
+    /// What is lost: what, and how many.
+    pub fn lost(&self) -> impl Iterator<Item = (&str, usize)> {
+        let lost = self.parts.iter().filter(|(_, _, how)| *how == How::No);
+        lost.map(|(name, count, _)| (name.as_str(), *count))
+    }
+
+    /// What is carried in another way: what, how many, and how.
+    pub fn otherwise(&self) -> impl Iterator<Item = (&str, usize, &'static str)> {
+        self.parts.iter().filter_map(|(name, count, how)| match how {
+            How::Otherwise(how) => Some((name.as_str(), *count, *how)),
+            _ => None,
+        })
+    }
+
+    /// All that is lost or carried otherwise, as notes; `file` is the description.
+    pub fn notes(&self, file: &str) -> Vec<Note> {
+        let note = |kind, (what, count, how): (&str, usize, &str)| {
+            Note::of_file(file, kind, format!("{what} ({count})"), how)
+        };
+        let lost = self.lost().map(|(what, count)| (what, count, "lost; a URDF cannot say it"));
+        let lost = lost.map(|part| note(NoteKind::Lost, part));
+        let otherwise = self.otherwise().map(|part| note(NoteKind::Otherwise, part));
+        lost.chain(otherwise).chain(self.remarks.iter().cloned()).collect()
+    }
+
+    /// As JSON, with the keys of the report of an export.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let notes: Vec<String> = self.remarks.iter().map(ToString::to_string).collect();
+        carried::report(&self.robot, self.format.name(), &self.parts, &notes)
+    }
+}
+
+fn how(feature: Feature, format: Format) -> How {
+    match format {
+        Format::Mjcf => feature.mjcf,
+        Format::Sdf => feature.sdf,
+        Format::Usd => feature.usd,
+    }
+}
+
+/// The table of docs/import.md, in Markdown.
+#[must_use]
+pub fn imported_table() -> String {
+    let formats = Format::ALL.map(Format::name);
+    let row = |feature: &'static Feature| (feature.name, Format::ALL.map(|of| how(*feature, of)));
+    table(&formats, ALL.iter().map(row))
 }

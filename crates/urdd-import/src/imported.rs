@@ -6,14 +6,6 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
-
-use super::model::{Geometry, Model};
-use super::place::TextFile;
-use super::refusal::{Placed, Positions, Refusal, placed};
-use super::report::Report;
-use super::tree::Tree;
-use super::urdf::{UNIT_SPHERE, urdf};
-use super::{companions, mjcf, sdf, usd};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::path::{self, portable};
@@ -32,6 +24,13 @@ use urdd_source::{
     SourceMeshes, format_of, load, load_with, stem,
 };
 use urdd_xml::Xml;
+
+use crate::features::Report;
+use crate::model::{Geometry, Model};
+use crate::place::{Placed, Positions, Refusal, TextFile, placed};
+use crate::tree::Tree;
+use crate::urdf::{self, UNIT_SPHERE, urdf};
+use crate::{mjcf, sdf, usd};
 
 /// What is put behind a name for the file that exports read.
 const SETUP: &str = ".export.toml";
@@ -73,10 +72,8 @@ impl Imported {
     /// If the files are more than memory may hold.
     pub fn settings(&self, settings: &Settings) -> Result<Settings, SourceError> {
         let files = self.files.iter().map(|(path, bytes)| (path.clone(), Arc::clone(bytes)));
-        let files = Files::in_memory(files).map_err(|error| SourceError::Read {
-            file: self.shown.clone(),
-            reason: error.to_string(),
-        })?;
+        let files = Files::in_memory(files);
+        let files = files.map_err(|why| SourceError::unread(&self.shown, why))?;
         let packages = Packages::default();
         Ok(Settings {
             files,
@@ -184,11 +181,10 @@ pub fn import(path: &Path, settings: &Settings) -> Result<Option<Imported>, Sour
         // With meshes in it.
         Format::Usd => MAX_DOCUMENT_BYTES,
     };
-    let unreadable =
-        |reason: String| SourceError::Read { file: path.display().to_string(), reason };
-    let bytes = settings.files.read(path, most).map_err(|error| unreadable(error.to_string()))?;
+    let bytes = settings.files.read(path, most);
+    let bytes = bytes.map_err(|why| SourceError::unread(&shown, why))?;
     let canonical = settings.files.canonicalize(path);
-    let canonical = canonical.map_err(|error| unreadable(error.to_string()))?;
+    let canonical = canonical.map_err(|why| SourceError::unread(&shown, why))?;
     let folder = canonical.parent().unwrap_or(Path::new("/"));
     let gate = Gate::of_project(folder, settings);
     gate.account().deposit(bytes.len());
@@ -261,7 +257,6 @@ pub fn open<T>(
     Ok((SourceMeshes::of(source, &settings, Some(beside)), also))
 }
 
-/// What is written of a model.
 fn written(
     model: Model,
     format: Format,
@@ -284,9 +279,9 @@ fn written(
     let text = urdf(&model, &tree, &original, options, gate.account()).map_err(too_much)?;
     files.insert(name.clone(), text.into_bytes().into());
     let companions = [
-        (SRDF, companions::srdf(&model, &tree, &original)),
-        (LOOPS, companions::loops(&model)),
-        (SETUP, companions::setup(&model, &tree)),
+        (SRDF, urdf::srdf(&model, &tree, &original)),
+        (LOOPS, urdf::loops(&model)),
+        (SETUP, urdf::setup(&model, &tree)),
     ];
     files.extend(
         companions.into_iter().filter_map(|(ending, text)| {
@@ -313,7 +308,8 @@ fn written(
         let (_, line, column) = positions.at(place)?;
         Some(((kind, name.clone()), (Arc::clone(&shown_files[place.file]), line, column)))
     });
-    let mut report = Report::of(&model, format, &positions, &gate.all_elsewhere());
+    let mut report =
+        Report::of(&model.name, &model.tally, format, &positions, &gate.all_elsewhere());
     if base != model.name {
         report.remarks.push(Note::of_file(
             &shown,
@@ -324,8 +320,8 @@ fn written(
     }
     Ok(Imported {
         places: places.collect(),
-        configurations: companions::configurations(&model, &tree),
-        skips: companions::skips(&model),
+        configurations: urdf::configurations(&model, &tree),
+        skips: urdf::skips(&model),
         report,
         origin: origin(format, &model.files),
         original: model.files.first().map_or_else(String::new, |file| file.text.clone()),

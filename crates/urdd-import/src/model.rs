@@ -1,22 +1,19 @@
 //! A robot of another format, in the terms of that format: bodies in a tree, each with the joints by which it moves.
 //!
-//! Lengths in m, angles in rad, masses in kg, inertias in kg m². A reader of a format makes a [`Model`]; the writers of
-//! this room make a URDF and its companions from it. What is in a list was charged to the account of the run, with all
-//! that the writers make of it.
+//! Lengths in m, angles in rad, masses in kg, inertias in kg m². A reader of a format makes a [`Model`]; `urdf.rs` makes a
+//! URDF and its companions from it. What is in a list was charged to the account of the run, with all that is made of it.
 
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
-use urdd_directory::account::Charged;
+use urdd_directory::account::{Charged, Cost};
 use urdd_format::loops::LoopKind;
 
-use super::features::{self, Feature, Tally};
-use super::place::{Place, TextFile};
+use crate::features::{self, Feature, Tally};
+use crate::place::{Place, TextFile};
 
-/// A robot.
 #[derive(Debug, Clone, Default)]
 pub struct Model {
-    /// Its name.
     pub name: String,
     /// The files that were read: the description first, then what it includes.
     pub files: Vec<TextFile>,
@@ -40,14 +37,11 @@ pub struct Model {
     pub elements: Charged<GazeboElement>,
     /// The coefficient of friction of all shapes, where all have the same.
     pub friction: Option<f64>,
-    /// What became of what the description says.
     pub tally: Tally,
 }
 
-/// A rigid body.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Body {
-    /// Its name.
     pub name: String,
     /// Its parent, by index; none of the first body alone.
     pub parent: Option<usize>,
@@ -57,30 +51,17 @@ pub struct Body {
     pub joints: Charged<Joint>,
     /// The name of the fixed joint, if it has no others; `NAME_fixed` otherwise.
     pub fixed_by: Option<String>,
-    /// Its mass, if it has one.
     pub inertial: Option<Inertial>,
-    /// Its shapes.
     pub shapes: Charged<Shape>,
     /// Whether it is a frame alone: a site, a camera, a frame of SDF.
     pub is_frame: bool,
-    /// Where it stands.
     pub place: Place,
 }
 
 impl Body {
     /// A body without joints, mass and shapes.
     pub fn new(name: String, parent: Option<usize>, pose: Isometry3<f64>, place: Place) -> Self {
-        Body {
-            name,
-            parent,
-            pose,
-            joints: Charged::default(),
-            fixed_by: None,
-            inertial: None,
-            shapes: Charged::default(),
-            is_frame: false,
-            place,
-        }
+        Body { name, parent, pose, place, ..Body::default() }
     }
 }
 
@@ -89,16 +70,15 @@ impl Body {
 pub struct Inertial {
     /// Mass, kg.
     pub mass: f64,
-    /// Centre of mass.
     pub centre: Point3<f64>,
     /// The inertia about the centre of mass, along the axes of the frame.
     pub inertia: Matrix3<f64>,
 }
 
-/// How a joint moves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum JointKind {
     /// About its axis.
+    #[default]
     Hinge,
     /// Along its axis.
     Slide,
@@ -123,12 +103,10 @@ impl JointKind {
     }
 }
 
-/// A joint.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Joint {
     /// Its name; unique and not empty.
     pub name: String,
-    /// How it moves.
     pub kind: JointKind,
     /// Its frame in the body's, which moves with the body.
     pub frame: Isometry3<f64>,
@@ -146,7 +124,6 @@ pub struct Joint {
     pub damping: f64,
     /// Friction, N or N m.
     pub friction: f64,
-    /// The joint that it follows.
     pub mimic: Option<Mimic>,
     /// Gains of its actuator: N m/rad or N/m, and N m s/rad or N s/m; the inertia of its motor, kg m² or kg.
     pub kp: Option<f64>,
@@ -154,7 +131,6 @@ pub struct Joint {
     pub armature: Option<f64>,
     /// What else its actuator says.
     pub actuator: Actuator,
-    /// Where it stands.
     pub place: Place,
 }
 
@@ -174,24 +150,7 @@ pub struct Actuator {
 impl Joint {
     /// A joint about or along z, of which nothing else is said.
     pub fn new(name: String, kind: JointKind, frame: Isometry3<f64>, place: Place) -> Self {
-        Joint {
-            name,
-            kind,
-            frame,
-            axis: Vector3::z(),
-            reference: 0.0,
-            range: None,
-            effort: None,
-            velocity: None,
-            damping: 0.0,
-            friction: 0.0,
-            mimic: None,
-            kp: None,
-            kv: None,
-            armature: None,
-            actuator: Actuator::default(),
-            place,
-        }
+        Joint { name, kind, frame, axis: Vector3::z(), place, ..Joint::default() }
     }
 
     /// What is counted of it.
@@ -218,28 +177,19 @@ pub struct Mimic {
 /// What a shape is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Use {
-    /// It is seen.
     Visual,
-    /// It collides.
     Collision,
-    /// Both.
     Both,
 }
 
-/// A shape of a body.
 #[derive(Debug, Clone)]
 pub struct Shape {
-    /// Its name, if it has one.
     pub name: Option<String>,
-    /// What it is for.
     pub used: Use,
     /// Its frame in the body's.
     pub pose: Isometry3<f64>,
-    /// What it is.
     pub geometry: Geometry,
-    /// How it looks, if it is said.
     pub material: Option<Material>,
-    /// Where it stands.
     pub place: Place,
 }
 
@@ -249,15 +199,22 @@ pub enum Geometry {
     /// Lengths of the edges.
     Box([f64; 3]),
     /// Along z.
-    Cylinder { radius: f64, length: f64 },
+    Cylinder {
+        radius: f64,
+        length: f64,
+    },
     /// Along z; the length is without the two ends.
-    Capsule { radius: f64, length: f64 },
-    /// The radius.
+    Capsule {
+        radius: f64,
+        length: f64,
+    },
     Sphere(f64),
-    /// The three radii.
     Ellipsoid([f64; 3]),
     /// A mesh: an index in [`Model::assets`], and the factors by which it is scaled.
-    Mesh { asset: usize, scale: [f64; 3] },
+    Mesh {
+        asset: usize,
+        scale: [f64; 3],
+    },
 }
 
 impl Geometry {
@@ -272,7 +229,6 @@ impl Geometry {
     }
 }
 
-/// How a shape looks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Its name; one is given to it otherwise.
@@ -288,14 +244,11 @@ pub struct Material {
 pub struct Asset {
     /// Its path below the folder of the URDF, such as `meshes/base.stl`; unique regardless of case.
     pub path: String,
-    /// Its content.
     pub bytes: Arc<[u8]>,
 }
 
-/// A named configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Configuration {
-    /// Its name.
     pub name: String,
     /// Values of joints, in the order of bodies and of their joints.
     pub values: Charged<JointValue>,
@@ -303,12 +256,10 @@ pub struct Configuration {
     pub base: Option<[f64; 7]>,
 }
 
-/// The value of a joint in a named configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointValue {
     /// The joint: the index of its body, and its own there.
     pub joint: (usize, usize),
-    /// Its name.
     pub name: String,
     /// Of each DOF, rad or m; of rotations about a point, the components of the rotation vector.
     pub values: Vec<f64>,
@@ -317,13 +268,9 @@ pub struct JointValue {
 /// What holds two bodies together, beside the tree.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Closing {
-    /// Its name, if it has one.
     pub name: Option<String>,
-    /// What it holds.
     pub kind: LoopKind,
-    /// Where.
     pub ends: [End; 2],
-    /// Where it stands.
     pub place: Place,
 }
 
@@ -337,9 +284,7 @@ pub struct End {
 /// An equation between joints: the constant, and a polynomial without one of each, add up to 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coupled {
-    /// Its name, if it has one.
     pub name: Option<String>,
-    /// The constant.
     pub constant: f64,
     /// Names of joints, and up to four coefficients.
     pub terms: Vec<(String, Vec<f64>)>,
@@ -352,8 +297,56 @@ pub struct GazeboElement(pub String);
 /// Two bodies that are never checked for collisions with each other, or always, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Apart {
-    /// Their indices.
     pub bodies: [usize; 2],
     /// The reason; of those that are never checked in one word, as SRDF has it: `Adjacent`, `Never`, `User`.
     pub reason: &'static str,
+}
+
+/// What comes of an entry, bytes: in memory, in the URDF and in its companions, and in what reads these.
+pub const ENTRY: usize = 3000;
+/// The same, of a value of a joint or a pair.
+pub const PART: usize = 500;
+/// The same, of each byte of a name.
+pub const LETTER: usize = 12;
+
+macro_rules! costs {
+    ($($entry:ty: |$of:ident| $cost:expr;)*) => {
+        $(impl Cost for $entry {
+            fn cost(&self) -> usize {
+                let $of = self;
+                $cost
+            }
+        })*
+    };
+}
+
+impl Cost for Apart {
+    fn cost(&self) -> usize {
+        PART
+    }
+}
+
+/// The bytes of names.
+fn letters<'n>(names: impl IntoIterator<Item = &'n String>) -> usize {
+    LETTER * names.into_iter().map(String::len).sum::<usize>()
+}
+
+costs! {
+    Body: |body| ENTRY + letters([&body.name]);
+    Joint: |joint| {
+        let leader = joint.mimic.as_ref().map(|of| &of.joint);
+        ENTRY + letters([&joint.name].into_iter().chain(leader).chain(&joint.actuator.name))
+    };
+    Shape: |shape| {
+        let material = shape.material.as_ref().and_then(|material| material.name.as_ref());
+        ENTRY + letters(shape.name.iter().chain(material))
+    };
+    Asset: |asset| asset.path.len() + asset.bytes.len();
+    Configuration: |configuration| ENTRY + letters([&configuration.name]);
+    JointValue: |value| PART + letters([&value.name]);
+    Closing: |closing| ENTRY + letters(&closing.name);
+    Coupled: |coupled| {
+        ENTRY + letters(coupled.name.iter().chain(coupled.terms.iter().map(|(name, _)| name)))
+    };
+    GazeboElement: |element| ENTRY + letters([&element.0]);
 }

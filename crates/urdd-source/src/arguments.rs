@@ -6,14 +6,6 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
-
-use crate::files::MAX_SOURCE_BYTES;
-use crate::gate::Gate;
-use crate::launch::choices;
-use crate::resolve::FoundMesh;
-use crate::roots::Place;
-use crate::settings::Settings;
-pub use crate::xacro_argument::XacroArgument;
 use urdd_directory::account::{Account, Overdrawn};
 use urdd_directory::limits::MAX_MANIFEST_BYTES;
 use urdd_directory::position::{LineIndex, Position};
@@ -21,10 +13,17 @@ use urdd_directory::read_error::ReadError;
 use urdd_xml::Node;
 use urdd_xml::element::{attribute, name};
 
-/// Maximum number of names of a folder that are looked at, and of values that are suggested.
+use crate::files::MAX_SOURCE_BYTES;
+use crate::gate::Gate;
+use crate::resolve::FoundMesh;
+use crate::roots::Place;
+use crate::settings::Settings;
+use crate::suggested::{MAX_VALUES, choices, is_given, whole_argument};
+
+pub use crate::error::XacroArgument;
+
+/// Maximum number of names of a folder that are looked at.
 const MAX_NAMES: usize = 1000;
-pub(crate) const MAX_VALUES: usize = 100;
-/// Maximum number of launch files.
 const MAX_LAUNCHES: usize = 100;
 /// Charged for a path that is looked for.
 const LOOK_UP: usize = 1 << 10;
@@ -85,12 +84,6 @@ pub fn needed(file: &Path, settings: &Settings) -> Vec<XacroArgument> {
     };
     all.retain(|one| (one.is_needed || is_no_file(one)) && !is_given(&one.name, settings));
     all
-}
-
-/// Whether an argument is given as `name:=value`.
-pub(crate) fn is_given(name: &str, settings: &Settings) -> bool {
-    let mut given = settings.xacro.arguments.iter().filter_map(|one| one.split_once(":="));
-    given.any(|(given, _)| given == name)
 }
 
 /// The lines of a settings file that declare the robots of a file, with each value of these arguments.
@@ -361,13 +354,6 @@ impl<'a> Texts<'a> {
     }
 }
 
-/// The argument that a text is, and nothing else: `$(arg kind)`.
-pub(crate) fn whole_argument(text: &str) -> Option<&str> {
-    let inside = text.trim().strip_prefix("$(arg ")?.strip_suffix(')')?.trim();
-    Some(inside).filter(|name| !name.is_empty() && !name.contains(['$', ')']))
-}
-
-/// Whether an element of this name calls a macro.
 fn is_call(name: &str) -> bool {
     name.strip_prefix("xacro:").is_some_and(|own| !OWN.contains(&own))
 }

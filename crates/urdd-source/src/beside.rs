@@ -3,9 +3,10 @@
 
 use std::path::Path;
 
-use crate::gate::Gate;
 use urdd_directory::limits::{MAX_SRDF_BYTES, MAX_TOML_BYTES};
 use urdd_format::named_configurations::ConfigurationEdit;
+
+use crate::gate::Gate;
 
 /// The text of a file, or why it cannot be read.
 pub type Companion = Result<String, String>;
@@ -58,7 +59,6 @@ pub(super) fn companion(path: &Path, limit: u64, gate: &Gate) -> Option<Companio
     Some(bytes.and_then(text))
 }
 
-/// Bytes as a text.
 pub(super) fn text(bytes: Vec<u8>) -> Companion {
     String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
 }

@@ -3,16 +3,16 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use crate::beside::text;
-use crate::files::MAX_SOURCE_BYTES;
-use crate::gate::Gate;
-use crate::installed::Installed;
-use crate::installs;
-use crate::macros::{self, Content, Macro, MacroFile};
-use crate::settings::Settings;
 use urdd_directory::account::Account;
 use urdd_directory::file_type::FileType;
 use urdd_format::short::Short;
+
+use crate::beside::text;
+use crate::files::MAX_SOURCE_BYTES;
+use crate::gate::Gate;
+use crate::installed::{self, Installed};
+use crate::macros::{self, Content, Macro, MacroFile};
+use crate::settings::Settings;
 
 /// Charged for a package that is looked up: the files that are looked at for it.
 const LOOK_UP: usize = 16 << 10;
@@ -108,7 +108,6 @@ pub fn describe(
     Description { files, included, uncalled }
 }
 
-/// A file that was read.
 struct Text {
     file: MacroFile,
     /// The files that it includes, by their names as they are written; `None` if it is not known which.
@@ -174,7 +173,7 @@ impl Texts<'_> {
                     let (package, path) = (package.trim(), rest.trim_start_matches('/'));
                     let folder = self.package(package, folder)?;
                     let files = &self.settings.files;
-                    let of = || installs::installed(&folder, files);
+                    let of = || installed::installed(&folder, files);
                     let installed = self.installed.entry(folder.clone()).or_insert_with(of);
                     let is_there = |path: &String| files.is_file(&folder.join(path));
                     let source = installed.sources(path).find(is_there);

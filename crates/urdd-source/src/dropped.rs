@@ -1,19 +1,18 @@
 //! What a set of files holds that somebody dropped: descriptions, and the folders of the packages that they name.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use super::declared::Declared;
-use super::described::{FileKind, describe};
-use super::endings::Endings;
-use super::files::Files;
-use super::format::{Format, RobotFile, parts_of_others, robot_file};
-use super::inspect::is_of_mesh;
-use super::robots::{Job, named};
-use super::settings::Settings;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::file_type::FileType;
 use urdd_directory::path;
+
+use crate::described::{FileKind, describe};
+use crate::files::Files;
+use crate::format::{Format, RobotFile, parts_of_others, robot_file};
+use crate::inspect::is_of_mesh;
+use crate::robots::{Job, named};
+use crate::settings::{Declared, Settings};
 
 /// Maximum number of packages of one description for which a folder is searched. Descriptions name a few.
 const MAX_PACKAGES: usize = 1000;
@@ -125,14 +124,45 @@ fn of_content(is: RobotFile) -> Option<DroppedKind> {
     }
 }
 
-/// The folders of a set of files, by which packages are found.
+/// The folders of a set of files, by which packages are found: all endings of the paths, such as `meshes/a.obj` of
+/// `arm/meshes/a.obj`. Building it takes time and memory proportional to the paths, and each question time proportional to
+/// the path that is asked for.
 #[derive(Debug)]
-pub struct PackageFolders<'a>(Endings<'a>);
+pub struct PackageFolders<'a> {
+    /// The number of the ending that begins one part earlier, by that part and the number of an ending. The empty
+    /// ending has number 0.
+    longer: HashMap<(usize, &'a str), usize>,
+    /// The highest folder with each ending; of several, the first by name.
+    folders: Vec<&'a str>,
+    /// The names of all folders.
+    names: HashSet<&'a str>,
+}
 
 impl<'a> PackageFolders<'a> {
     /// Of these paths: relative, with `/` between their parts.
-    pub fn of(paths: Vec<&'a str>) -> Self {
-        PackageFolders(Endings::of(paths))
+    pub fn of(mut paths: Vec<&'a str>) -> Self {
+        paths.sort_by_cached_key(|path| (path.split('/').count(), *path));
+        let mut longer = HashMap::new();
+        let mut folders = vec![""];
+        for path in &paths {
+            let mut ending = 0;
+            let mut before = *path;
+            while !before.is_empty() {
+                let (folder, part) = before.rsplit_once('/').unwrap_or(("", before));
+                let next = folders.len();
+                ending = *longer.entry((ending, part)).or_insert(next);
+                if ending == next {
+                    folders.push(folder);
+                }
+                before = folder;
+            }
+        }
+        let names = paths.into_iter().filter_map(|path| path.rsplit_once('/'));
+        PackageFolders {
+            longer,
+            folders,
+            names: names.flat_map(|(folder, _)| folder.split('/')).collect(),
+        }
     }
 
     /// The packages that a text names, each with the highest folder of its name in which a file is that the text names; or,
@@ -155,19 +185,16 @@ impl<'a> PackageFolders<'a> {
             {
                 continue;
             }
-            let folder = match self.0.folder_with(&format!("{package}/{file}")) {
+            let folder = match self.folder_with(&format!("{package}/{file}")) {
                 Some("") => Some(package.to_owned()),
                 Some(above) => Some(format!("{above}/{package}")),
-                None if self.0.has_folder(package) => None,
-                None => self.0.folder_with(file).map(str::to_owned),
+                None if self.has_folder(package) => None,
+                None => self.folder_with(file).map(str::to_owned),
             };
             let last = file.rsplit('/').next().unwrap_or(file);
             if let Some(folder) = folder {
                 found.insert(package, folder);
-            } else if is_searched
-                && !self.0.has_folder(package)
-                && self.0.folder_with(last).is_some()
-            {
+            } else if is_searched && !self.has_folder(package) && self.folder_with(last).is_some() {
                 lost.insert(package, String::new());
             }
             if found.len() + lost.len() >= MAX_PACKAGES {
@@ -176,6 +203,18 @@ impl<'a> PackageFolders<'a> {
         }
         lost.append(&mut found);
         lost
+    }
+
+    /// Whether a folder has this name.
+    fn has_folder(&self, name: &str) -> bool {
+        self.names.contains(name)
+    }
+
+    /// The highest folder below which a file has this path; the empty path is that of the whole set.
+    fn folder_with(&self, file: &str) -> Option<&'a str> {
+        let mut parts = file.rsplit('/');
+        let ending = parts.try_fold(0, |ending, part| self.longer.get(&(ending, part)).copied())?;
+        self.folders.get(ending).copied()
     }
 }
 
@@ -271,5 +310,20 @@ mod tests {
         ];
         let expected = expected.map(|(name, path, kind)| (name, path.into(), kind));
         assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn the_highest_folder_with_a_file_is_found() {
+        let files = ["b/m/a.obj", "c/a/m/a.obj", "a/m/a.obj", "m/b.obj", "top.obj"];
+        let endings = PackageFolders::of(files.to_vec());
+        assert_eq!(endings.folder_with("m/a.obj"), Some("a"));
+        assert_eq!(endings.folder_with("a.obj"), Some("a/m"));
+        assert_eq!(endings.folder_with("c/a/m/a.obj"), Some(""));
+        assert_eq!(endings.folder_with("m/b.obj"), Some(""));
+        assert_eq!(endings.folder_with("top.obj"), Some(""));
+        for none in ["c.obj", "x/m/a.obj", "m", "m/", "", "obj"] {
+            assert_eq!(endings.folder_with(none), None, "{none:?}");
+        }
+        assert!(endings.has_folder("m") && !endings.has_folder("a.obj"));
     }
 }

@@ -3,11 +3,11 @@
 use std::fmt;
 
 use thiserror::Error;
-
-use super::fault::PlacedFault;
-use super::xacro_argument::XacroArgument;
 use urdd_directory::cancellation::Cancelled;
+use urdd_directory::position::Position;
 use urdd_format::escape;
+
+use crate::fault::PlacedFault;
 
 /// Maximum number of faults of a file that are shown one by one.
 const MOST_SHOWN: usize = 5;
@@ -19,7 +19,7 @@ const MOST_SHOWN: usize = 5;
 pub enum SourceError {
     #[error("{file}: cannot be read: {reason}")]
     Read { file: String, reason: String },
-    #[error("{}", FaultLines(file, faults))]
+    #[error("{}", fault_lines(file, faults))]
     Refused { file: String, faults: Vec<PlacedFault> },
     #[error(
         "{file}: expanding this file needs the program `xacro`, which is not on the PATH; install it (`pip install xacro`, or ROS), or expand the file elsewhere: `xacro {file} > robot.urdf`"
@@ -31,7 +31,7 @@ pub enum SourceError {
     #[error(
         "{}: values are missing for {}; give them as `name:=value`, or declare the robots in urdd.toml (`urdd lint --write-robots`); {fault}",
         escape::line(file),
-        Listed(needed)
+        listed(needed)
     )]
     NeedsArguments { file: String, needed: Vec<XacroArgument>, fault: Box<XacroFault> },
     /// A description of another format than URDF.
@@ -66,6 +66,11 @@ fn place(line: u32, column: u32) -> String {
 }
 
 impl SourceError {
+    /// That a file, as the user named it, cannot be read.
+    pub fn unread(file: &str, reason: impl ToString) -> Self {
+        SourceError::Read { file: file.to_owned(), reason: reason.to_string() }
+    }
+
     /// A machine-readable code for the kind of error.
     pub fn code(&self) -> &'static str {
         match self {
@@ -115,37 +120,50 @@ impl fmt::Display for XacroFault {
     }
 }
 
-/// Formats arguments, on one line.
-struct Listed<'a>(&'a [XacroArgument]);
-
-impl fmt::Display for Listed<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let all: Vec<String> = self.0.iter().map(|one| one.to_string()).collect();
-        f.write_str(&escape::line(&all.join(", ")))
-    }
+/// Arguments, on one line.
+fn listed(needed: &[XacroArgument]) -> String {
+    let all: Vec<String> = needed.iter().map(ToString::to_string).collect();
+    escape::line(&all.join(", ")).into_owned()
 }
 
-/// Formats the faults of a file, one per line.
-struct FaultLines<'a>(&'a str, &'a [PlacedFault]);
+/// The faults of a file, one per line: a name must not add line breaks.
+fn fault_lines(file: &str, faults: &[PlacedFault]) -> String {
+    let line =
+        |of: &PlacedFault| format!("{}: {}", of.place(file), escape::line(&of.fault.to_string()));
+    let mut lines: Vec<String> = faults.iter().take(MOST_SHOWN).map(line).collect();
+    if let Some(more) = faults.len().checked_sub(MOST_SHOWN).filter(|more| *more > 0) {
+        lines.push(format!("{}: and {more} more such faults", escape::line(file)));
+    }
+    lines.join("\n")
+}
 
-impl fmt::Display for FaultLines<'_> {
+/// Maximum number of values in a message.
+const SHOWN: usize = 6;
+
+/// An argument.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct XacroArgument {
+    /// Its name.
+    pub name: String,
+    /// Its default as it is written.
+    pub default: Option<String>,
+    /// Values for which the package has files, else those that a launch file lists; or those for which the file defines a
+    /// property that is missing.
+    pub values: Vec<String>,
+    /// Whether a value has to be given: there is no default, the package has no files for it, a property is missing with it,
+    /// or xacro does not know it yet.
+    pub is_needed: bool,
+    /// Where the file itself declares or uses it first.
+    pub at: Option<Position>,
+}
+
+impl fmt::Display for XacroArgument {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let FaultLines(file, faults) = self;
-        // One line per fault: a name must not add line breaks.
-        for (number, placed) in faults.iter().take(MOST_SHOWN).enumerate() {
-            if number > 0 {
-                f.write_str("\n")?;
-            }
-            let fault = placed.fault.to_string();
-            write!(f, "{}: {}", placed.place(file), escape::line(&fault))?;
-        }
-        if faults.len() > MOST_SHOWN {
-            write!(
-                f,
-                "\n{}: and {} more such faults",
-                escape::line(file),
-                faults.len() - MOST_SHOWN
-            )?;
+        write!(f, "`{}`", self.name)?;
+        if !self.values.is_empty() {
+            let more = if self.values.len() > SHOWN { ", …" } else { "" };
+            let shown = self.values.iter().take(SHOWN).map(String::as_str);
+            write!(f, " ({}{more})", shown.collect::<Vec<_>>().join(", "))?;
         }
         Ok(())
     }

@@ -1,10 +1,10 @@
 //! Faults for which a file is refused: any interpretation of it would be a guess.
 
 use thiserror::Error;
+use urdd_format::short::Short;
 
 use super::format::Format;
 use super::note::SourcePlace;
-use urdd_format::short::Short;
 
 /// Why a text is not a valid robot description.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]

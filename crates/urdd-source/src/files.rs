@@ -8,13 +8,13 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use thiserror::Error;
-
-pub use urdd_directory::limits::MAX_URDF_BYTES as MAX_SOURCE_BYTES;
 use urdd_directory::limits::{MAX_SET_BYTES, MAX_SET_FILES};
 use urdd_directory::read_error::ReadError;
 use urdd_directory::regular;
 use urdd_directory::root::Root;
 use urdd_directory::source::{Memory, OpenFile, Source};
+
+pub use urdd_directory::limits::MAX_URDF_BYTES as MAX_SOURCE_BYTES;
 
 /// Files that say what the folder is that they are in.
 const MANIFESTS: [&str; 2] = ["package.xml", "model.config"];

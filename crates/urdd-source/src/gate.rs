@@ -8,17 +8,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::files::{Files, is_broad};
-use super::inspect::{Inspected, inspect};
-use super::packages::Packages;
-use super::resolve::{FoundMesh, NotFound, resolve};
-use super::roots::{Place, Roots};
-use super::settings::Settings;
-use super::sniff::is_image;
 use thiserror::Error;
 use urdd_directory::account::{Account, Overdrawn};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::read_error::ReadError;
+
+use crate::files::{Files, is_broad};
+use crate::inspect::{Inspected, inspect, is_image};
+use crate::packages::Packages;
+use crate::resolve::{FoundMesh, NotFound, resolve};
+use crate::roots::{Place, Roots};
+use crate::settings::Settings;
 
 /// Files that a project has in its outermost folder.
 const MARKS: &[&str] = &[".git", "package.xml", "pyproject.toml", "setup.py", "model.config"];

@@ -2,27 +2,25 @@
 
 use std::path::{Path, PathBuf};
 
-use super::arguments::needed;
-use super::deciding::deciding;
-use super::decode::{Decoded, Decoding, Original, decode};
-use super::error::SourceError;
-use super::fault::{Fault, PlacedFault};
-use super::files::{Files, MAX_SOURCE_BYTES};
-use super::loops::{self, Said};
-use super::made_from::Origin;
-use super::note::{Note, Remark, SourcePlace};
-use super::repair::{Repaired, mend_xml};
-use super::settings::Settings;
-use super::urdf::{self, Reading};
-use super::watch::Trail;
-use super::xacro;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::path;
 use urdd_format::urdf::UrdfModule;
-
 use urdd_xml::Xml;
 use urdd_xml::element::apply;
+
+use crate::arguments::needed;
+use crate::decode::{Decoded, Decoding, Original, Repaired, decode, mend_xml};
+use crate::error::SourceError;
+use crate::fault::{Fault, PlacedFault};
+use crate::files::{Files, MAX_SOURCE_BYTES};
+use crate::loops::{self, Said};
+use crate::note::{Note, Remark, SourcePlace};
+use crate::settings::Settings;
+use crate::suggested::deciding;
+use crate::urdf::{self, Reading};
+use crate::written::Origin;
+use crate::xacro::{self, Trail};
 
 /// Maximum number of repair rounds; one is enough unless this program has a bug.
 const MOST_ROUNDS: usize = 4;
@@ -155,7 +153,6 @@ pub fn read_source(
 /// A description before it is repaired.
 struct Read {
     shown: String,
-    /// Its bytes.
     bytes: Vec<u8>,
     /// The file's name without its extensions: the name of a robot without one.
     stem: String,
@@ -178,11 +175,10 @@ fn read(
     notes: &mut Vec<Note>,
 ) -> Result<Read, SourceError> {
     let shown = path.display().to_string();
-    let unreadable = |reason: String| SourceError::Read { file: shown.clone(), reason };
     let bytes = settings.files.read(path, MAX_SOURCE_BYTES);
-    let bytes = bytes.map_err(|error| unreadable(error.to_string()))?;
+    let bytes = bytes.map_err(|why| SourceError::unread(&shown, why))?;
     let canonical = settings.files.canonicalize(path);
-    let canonical = canonical.map_err(|error| unreadable(error.to_string()))?;
+    let canonical = canonical.map_err(|why| SourceError::unread(&shown, why))?;
     let folder = canonical.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
     let Decoded { text, is_verbatim, decoding } = decode(&bytes, &shown, notes)?;
     // The user's name for the file decides, not the target of a symbolic link.
@@ -246,10 +242,8 @@ pub fn load_text(
     folder: &Path,
     settings: &Settings,
 ) -> Result<Source, SourceError> {
-    let folder = settings
-        .files
-        .canonicalize(folder)
-        .map_err(|error| SourceError::Read { file: shown.to_owned(), reason: error.to_string() })?;
+    let folder = settings.files.canonicalize(folder);
+    let folder = folder.map_err(|why| SourceError::unread(shown, why))?;
     let mut notes = Vec::new();
     let read = held(within_limit(bytes, shown)?, shown, folder, "robot", &mut notes)?;
     Ok(with_loops(read, loops::named(settings)?, settings, notes, |_, _| ())?.0)
@@ -264,11 +258,11 @@ pub fn load_xml(xml: &Xml<'_>, shown: &str, folder: PathBuf) -> Result<Source, S
 }
 
 fn within_limit(bytes: Vec<u8>, shown: &str) -> Result<Vec<u8>, SourceError> {
+    if bytes.len() as u64 <= MAX_SOURCE_BYTES {
+        return Ok(bytes);
+    }
     let limit = MAX_SOURCE_BYTES >> 20;
-    let reason = || format!("it is longer than {limit} MiB");
-    let is_within = bytes.len() as u64 <= MAX_SOURCE_BYTES;
-    let error = || SourceError::Read { file: shown.to_owned(), reason: reason() };
-    is_within.then_some(bytes).ok_or_else(error)
+    Err(SourceError::unread(shown, format!("it is longer than {limit} MiB")))
 }
 
 /// `known` is what may be the text of these bytes, which others read too.

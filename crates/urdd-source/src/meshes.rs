@@ -4,19 +4,20 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::around::NearPackage;
-use super::beside::Beside;
-use super::error::SourceError;
-use super::gate::Gate;
-use super::load::{Source, load, load_xml};
-use super::loops::Said;
-use super::resolve::{FoundMesh, NotFound, OtherCase};
-use super::settings::Settings;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::{Geometry, UrdfModule};
 use urdd_geometry::read::Scene;
 use urdd_xml::Xml;
+
+use crate::beside::Beside;
+use crate::error::SourceError;
+use crate::gate::Gate;
+use crate::load::{Source, load, load_xml};
+use crate::loops::Said;
+use crate::packages::NearPackage;
+use crate::resolve::{FoundMesh, NotFound, OtherCase};
+use crate::settings::Settings;
 
 /// A URDF and the mesh files that it names.
 #[derive(Debug)]

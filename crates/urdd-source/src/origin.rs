@@ -1,7 +1,6 @@
 //! Origins of a URDF as poses: SPEC 5.4 and 6.1.9.
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
-
 use urdd_format::urdf::Origin;
 use urdd_kinematics::rotation::from_rpy;
 

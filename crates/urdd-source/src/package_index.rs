@@ -1,18 +1,17 @@
-//! Packages where xacro finds them: `$(find NAME)`, with or without ROS.
+//! Packages where xacro finds them: `$(find NAME)`, with or without ROS. Each is laid out as it is installed: as a folder of
+//! links to its sources.
 
 use std::collections::BTreeMap;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{fs, io};
 
-use crate::around::around;
-use crate::files::Files;
-use crate::installed::Installed;
-use crate::installs;
-use crate::packages::Packages;
-use crate::tree::{self, link};
 use urdd_directory::outputs;
 use urdd_directory::temporary::Temporary;
+
+use crate::files::Files;
+use crate::installed::{self, Installed};
+use crate::packages::{Packages, around};
 
 /// The part of ament that xacro needs, for machines without ROS.
 const AMENT: &str = include_str!("ament_index_python.py");
@@ -24,7 +23,6 @@ pub(super) struct PackageIndex {
     linked: Vec<Linked>,
 }
 
-/// A package in a layout.
 struct Linked {
     /// Its place there.
     at: PathBuf,
@@ -83,10 +81,10 @@ impl PackageIndex {
             return Ok(());
         }
         outputs::fresh(&index.join(name), b"")?;
-        let installed = installs::installed(folder, &Files::Disk);
+        let installed = installed::installed(folder, &Files::Disk);
         match installed.is_as_source() {
             true => link(folder, &at)?,
-            false => tree::lay(&at, folder, &installed)?,
+            false => lay(&at, folder, &installed)?,
         }
         self.linked.push(Linked { at, folder: folder.to_owned(), installed });
         Ok(())
@@ -166,3 +164,76 @@ impl Linked {
 
 /// What ends a path in a text of xacro.
 const ENDS_PATH: [char; 9] = ['"', '\'', '<', '>', ' ', '\n', ')', ',', ';'];
+
+const MOST_LINKS: usize = 10_000;
+
+/// Lays out the package in `folder` at a path where nothing is: what it installs, and for the rest its sources as they are.
+pub fn lay(at: &Path, folder: &Path, installed: &Installed) -> io::Result<()> {
+    let mut tree = Tree { left: MOST_LINKS };
+    fs::create_dir_all(at)?;
+    for rule in &installed.rules {
+        // What is not there is said when it is asked for.
+        if let Ok(source) = folder.join(&rule.source).canonicalize() {
+            tree.put(at, &rule.target, &source)?;
+        }
+    }
+    tree.put(at, "", folder)
+}
+
+struct Tree {
+    left: usize,
+}
+
+impl Tree {
+    /// Puts a file or folder at a path below `root`. What is there already stays.
+    fn put(&mut self, root: &Path, path: &str, source: &Path) -> io::Result<()> {
+        let mut at = root.to_owned();
+        let (above, last) = path.rsplit_once('/').unwrap_or(("", path));
+        for part in above.split('/').filter(|part| !part.is_empty()) {
+            at.push(part);
+            self.open(&at)?;
+        }
+        let at = if last.is_empty() { at } else { at.join(last) };
+        self.merge(&at, source)
+    }
+
+    fn merge(&mut self, at: &Path, source: &Path) -> io::Result<()> {
+        if !at.exists() {
+            self.left = self.left.checked_sub(1).ok_or(io::ErrorKind::StorageFull)?;
+            return link(source, at);
+        }
+        if !(at.is_dir() && source.is_dir()) || at.canonicalize()? == source.canonicalize()? {
+            return Ok(());
+        }
+        self.open(at)?;
+        for entry in fs::read_dir(source)? {
+            let entry = entry?;
+            self.merge(&at.join(entry.file_name()), &entry.path())?;
+        }
+        Ok(())
+    }
+
+    /// Makes a folder of a link to one, with links to what is in that.
+    fn open(&mut self, at: &Path) -> io::Result<()> {
+        let Ok(target) = fs::read_link(at) else { return fs::create_dir_all(at) };
+        fs::remove_file(at)?;
+        fs::create_dir(at)?;
+        if target.is_dir() { self.merge(at, &target) } else { Ok(()) }
+    }
+}
+
+#[cfg(unix)]
+pub fn link(folder: &Path, at: &Path) -> io::Result<()> {
+    std::os::unix::fs::symlink(folder, at)
+}
+
+#[cfg(windows)]
+pub fn link(folder: &Path, at: &Path) -> io::Result<()> {
+    std::os::windows::fs::symlink_dir(folder, at)
+}
+
+/// WebAssembly starts no program.
+#[cfg(not(any(unix, windows)))]
+pub fn link(_: &Path, _: &Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
+}

@@ -3,12 +3,11 @@
 use std::path::{Component, Path, PathBuf};
 
 use percent_encoding::percent_decode_str;
-
-use super::around::{NearPackage, is_plain, near};
-use super::files::Files;
-use super::packages::Packages;
-use super::roots::{Place, Roots};
 use urdd_format::escape;
+
+use crate::files::Files;
+use crate::packages::{NearPackage, Packages, is_plain, near};
+use crate::roots::{Place, Roots};
 
 /// Maximum number of searched places in a message.
 const MOST_TOLD: usize = 4;

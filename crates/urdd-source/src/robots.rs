@@ -6,16 +6,6 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use thiserror::Error;
-
-use super::declared::{Declared, files_below, robots_of};
-use super::described::{Description, FileKind, Reason, describe};
-use super::error::SourceError;
-use super::fault::Fault;
-use super::files::Files;
-use super::format::{RobotFile, by_content, parts_of_others};
-use super::packages::{IGNORED, package_name};
-use super::settings::Settings;
-
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::limits::MAX_FOLDER_DEPTH;
@@ -23,6 +13,14 @@ use urdd_directory::path;
 use urdd_format::escape;
 use urdd_format::readable::first_of;
 use urdd_format::short::Short;
+
+use crate::described::{Description, FileKind, Reason, describe};
+use crate::error::SourceError;
+use crate::fault::Fault;
+use crate::files::Files;
+use crate::format::{RobotFile, by_content, parts_of_others};
+use crate::packages::{IGNORED, package_name};
+use crate::settings::{Declared, Settings, files_below, robots_of};
 
 /// A robot of a batch.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -100,7 +98,6 @@ pub struct Batch {
     pub wanted: BTreeSet<PathBuf>,
 }
 
-/// Maximum number of macros that are named one by one.
 const MAX_NAMED: usize = 5;
 
 impl Batch {
@@ -240,7 +237,6 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
     Ok(batch)
 }
 
-/// A path with symbolic links resolved.
 fn resolved(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
@@ -278,7 +274,6 @@ pub(crate) fn named(robots: Vec<Declared>) -> Vec<Job> {
     robots.into_iter().zip(names).map(job).collect()
 }
 
-/// What a folder holds.
 #[derive(Default)]
 struct Found {
     /// URDFs and xacro files.
@@ -287,7 +282,6 @@ struct Found {
     packages: Vec<(String, PathBuf)>,
     /// What may be of another format.
     others: Vec<PathBuf>,
-    /// Whether there is a URDD.
     has_urdd: bool,
     /// The first folder that is passed over for a file in it, and that file's name.
     ignored: Option<(PathBuf, &'static str)>,
@@ -358,7 +352,6 @@ fn expansion(xacro: &Path) -> PathBuf {
     if FileType::Urdf.is_of(&stem) { stem } else { stem.with_extension("urdf") }
 }
 
-/// A unique name for each robot.
 fn names(sources: &[Declared]) -> Vec<String> {
     let parts: Vec<Vec<String>> = sources.iter().map(parts).collect();
     let mut used = vec![1; sources.len()];

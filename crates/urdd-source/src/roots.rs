@@ -7,12 +7,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::around::{Around, around};
-use super::files::{Files, is_broad};
-use super::installed::Installed;
-use super::installs;
-use super::packages::{Packages, package_name};
-use super::settings::Settings;
+use crate::files::{Files, is_broad};
+use crate::installed::{self, Installed};
+use crate::packages::{Around, Packages, around, package_name};
+use crate::settings::Settings;
 
 /// Names of folders for URDFs, which are siblings of `meshes` in a robot's folder.
 const URDF_FOLDERS: &[&str] = &["urdf", "urdfs", "robots", "robot", "xacro"];
@@ -72,7 +70,6 @@ impl Roots {
         self.allowed.push(folder);
     }
 
-    /// The packages around the URDF's folder.
     pub fn around(&self, urdf_folder: &Path) -> &[Around] {
         self.around.get_or_init(|| around(urdf_folder, &self.files))
     }
@@ -83,14 +80,12 @@ impl Roots {
         all.get(package).map(PathBuf::as_path)
     }
 
-    /// What the package in a folder installs.
     pub fn installed(&self, folder: &Path) -> Arc<Installed> {
         let mut known = self.installed.lock().unwrap_or_else(PoisonError::into_inner);
-        let of = || Arc::new(installs::installed(folder, &self.files));
+        let of = || Arc::new(installed::installed(folder, &self.files));
         Arc::clone(known.entry(folder.to_owned()).or_insert_with(of))
     }
 
-    /// Where the files are.
     pub fn files(&self) -> &Files {
         &self.files
     }
@@ -125,7 +120,6 @@ impl Roots {
         is_allowed.then_some(Place::Allowed)
     }
 
-    /// Whether a file is in the robot's own folder.
     pub fn is_own(&self, file: &Path) -> bool {
         file.starts_with(&self.own)
     }

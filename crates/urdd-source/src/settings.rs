@@ -1,12 +1,13 @@
-//! How a description is found and read.
+//! How a description is found and read, and the robots that a person declares: xacro files with their arguments.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
-use super::declared::Declared;
-use super::files::Files;
-use super::packages::Packages;
-use super::xacro::XacroSettings;
+use urdd_directory::range::{OutOfRange, Range};
+
+use crate::files::Files;
+use crate::packages::Packages;
 
 /// How a description is found and read. By default, with only the packages around it, from the disk.
 #[derive(Debug, Clone, Default)]
@@ -36,6 +37,41 @@ impl Settings {
     }
 }
 
+/// How xacro files are expanded.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct XacroSettings {
+    /// Whether to expand a `.urdf` that contains macros; a `.xacro` is always expanded.
+    pub expand_urdf: bool,
+    /// Arguments for the file, each as `name:=value`.
+    pub arguments: Vec<String>,
+    /// Time limit of the program.
+    pub time_limit: Duration,
+}
+
+/// [`XacroSettings::time_limit`], in seconds.
+pub const XACRO_TIMEOUT: Range = Range::real("xacro_timeout", 0.001, 1e9, "seconds");
+
+impl XacroSettings {
+    /// A time limit in seconds.
+    ///
+    /// # Errors
+    /// If it is out of the range of [`XACRO_TIMEOUT`].
+    pub fn seconds(given: f64) -> Result<Duration, OutOfRange> {
+        XACRO_TIMEOUT.check(given).map(Duration::from_secs_f64)
+    }
+}
+
+impl Default for XacroSettings {
+    /// Only `.xacro` files, without arguments, with a limit of one minute.
+    fn default() -> Self {
+        XacroSettings {
+            expand_urdf: false,
+            arguments: Vec::new(),
+            time_limit: Duration::from_secs(60),
+        }
+    }
+}
+
 /// What a person can choose of an import.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct ImportOptions {
@@ -47,4 +83,52 @@ pub struct ImportOptions {
     pub has_revolute_balls: bool,
     /// Whether links between the joints of one body get a tiny mass, which MuJoCo asks of what moves.
     pub has_tiny_masses: bool,
+}
+
+/// A robot that a person declares.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Declared {
+    /// The URDF or xacro file.
+    pub source: PathBuf,
+    /// Its name, if it has another one than its file.
+    pub name: Option<String>,
+    /// Arguments for xacro, each as `name:=value`.
+    pub arguments: Vec<String>,
+}
+
+impl From<PathBuf> for Declared {
+    /// A file that nobody declares.
+    fn from(source: PathBuf) -> Self {
+        Declared { source, name: None, arguments: Vec::new() }
+    }
+}
+
+/// The robots that are declared of a file, with its path as it is given; else the file itself.
+pub fn robots_of(file: PathBuf, declared: &[Declared]) -> Vec<Declared> {
+    let found = declared_of(&file, declared);
+    if found.is_empty() { vec![file.into()] } else { found }
+}
+
+/// The robots that are declared of a file, with its path as it is given; none if none is.
+pub fn declared_of(file: &Path, declared: &[Declared]) -> Vec<Declared> {
+    let is_it = |one: &&Declared| is_same(&one.source, file);
+    let with_path = |one: &Declared| Declared { source: file.to_owned(), ..one.clone() };
+    declared.iter().filter(is_it).map(with_path).collect()
+}
+
+/// The files that are declared below a folder, by paths that begin with it as it is given.
+pub fn files_below(folder: &Path, declared: &[Declared]) -> Vec<PathBuf> {
+    let Ok(above) = folder.canonicalize() else { return Vec::new() };
+    let inside = |one: &Declared| {
+        let file = one.source.canonicalize().ok()?;
+        Some(folder.join(file.strip_prefix(&above).ok()?))
+    };
+    declared.iter().filter_map(inside).collect()
+}
+
+/// Whether two paths lead to one file. Most have other names, and need no look at the disk.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let is_one =
+        || one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other));
+    one == other || one.file_name() == other.file_name() && is_one()
 }

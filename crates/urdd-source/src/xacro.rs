@@ -2,25 +2,31 @@
 //!
 //! A xacro file is a program: it may contain any expression and include any file. It therefore runs only if the user
 //! asks for it, by the file extension or by a flag, and with a time limit.
+//!
+//! It is watched, since it does not say from where the elements of its output are: a module that Python loads in its place,
+//! and that loads it, notes them. Where Python loads none of ours, nothing is known, and xacro runs all the same.
 
 use std::io::{self, ErrorKind, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus};
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::Duration;
 
+use serde::Deserialize;
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_directory::file_type::FileType;
+use urdd_directory::read_error::ReadError;
+use urdd_directory::temporary::Temporary;
+use urdd_directory::{outputs, regular};
+use urdd_format::escape;
+
 use crate::error::{SourceError, XacroFault};
-use crate::files::MAX_SOURCE_BYTES;
+use crate::files::{Files, MAX_SOURCE_BYTES};
 use crate::package_index::PackageIndex;
 use crate::packages::Packages;
 use crate::process::{Ended, Running};
-use crate::watch::{Trail, Watch};
-use urdd_directory::cancellation::{Cancellation, Cancelled};
-use urdd_directory::range::{OutOfRange, Range};
-use urdd_directory::read_error::ReadError;
-use urdd_directory::regular;
-use urdd_format::escape;
+use crate::settings::{Settings, XacroSettings};
 
 /// Maximum number of bytes to read from its standard error.
 const MAX_WORDS: u64 = 1 << 20;
@@ -31,41 +37,6 @@ const MOST_CHARACTERS: usize = 1000;
 const NOT_XML: &str = "XML parsing error: ";
 /// How long to wait for its last output if another process keeps the pipe open.
 const LAST_WORDS: Duration = Duration::from_secs(2);
-
-/// How xacro files are expanded.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct XacroSettings {
-    /// Whether to expand a `.urdf` that contains macros; a `.xacro` is always expanded.
-    pub expand_urdf: bool,
-    /// Arguments for the file, each as `name:=value`.
-    pub arguments: Vec<String>,
-    /// Time limit of the program.
-    pub time_limit: Duration,
-}
-
-/// [`XacroSettings::time_limit`], in seconds.
-pub const XACRO_TIMEOUT: Range = Range::real("xacro_timeout", 0.001, 1e9, "seconds");
-
-impl XacroSettings {
-    /// A time limit in seconds.
-    ///
-    /// # Errors
-    /// If it is out of the range of [`XACRO_TIMEOUT`].
-    pub fn seconds(given: f64) -> Result<Duration, OutOfRange> {
-        XACRO_TIMEOUT.check(given).map(Duration::from_secs_f64)
-    }
-}
-
-impl Default for XacroSettings {
-    /// Only `.xacro` files, without arguments, with a limit of one minute.
-    fn default() -> Self {
-        XacroSettings {
-            expand_urdf: false,
-            arguments: Vec::new(),
-            time_limit: Duration::from_secs(60),
-        }
-    }
-}
 
 /// Expands a xacro file to a URDF, and says where its elements are from.
 ///
@@ -197,4 +168,111 @@ fn fault(words: &[u8], given: &PackageIndex) -> Option<Box<XacroFault>> {
 fn missing_package(line: &str) -> Option<String> {
     let (name, rest) = line.split_once("package '")?.1.split_once('\'')?;
     rest.trim_start().starts_with("not found").then(|| name.to_owned())
+}
+
+const MODULE: &str = include_str!("watch.py");
+/// Where the module writes.
+const PLACES: &str = "URDD_XACRO_PLACES";
+
+/// Where xacro has the elements of its output from, in the order of the output.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
+pub struct Trail {
+    /// The files, with symbolic links resolved.
+    pub(super) files: Vec<PathBuf>,
+    /// The file, the line and the column of each element; `None` for one that macros made of nothing.
+    pub(super) elements: Vec<Option<(usize, u32, u32)>>,
+}
+
+/// A run of xacro that is watched.
+pub(super) struct Watch(Temporary);
+
+impl Watch {
+    pub(super) fn begin() -> io::Result<Self> {
+        let folder = Temporary::begin(&std::env::temp_dir(), "xacro")?;
+        outputs::fresh(&folder.path().join("python/xacro/__init__.py"), MODULE.as_bytes())?;
+        Ok(Watch(folder))
+    }
+
+    fn notes(&self) -> PathBuf {
+        self.0.path().join("places.json")
+    }
+
+    /// The folder of the module: the first of those that Python looks in.
+    pub(super) fn folder(&self) -> PathBuf {
+        self.0.path().join("python")
+    }
+
+    /// Says where the module writes.
+    pub(super) fn tell(&self, command: &mut Command) {
+        command.env(PLACES, self.notes());
+    }
+
+    /// What it noted; nothing if it could not.
+    pub(super) fn trail(&self) -> Trail {
+        let text = regular::read(&self.notes(), MAX_SOURCE_BYTES).ok();
+        text.and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default()
+    }
+}
+
+/// Maximum number of folders, and of files, that are listed.
+const MAX_LISTED: usize = 2000;
+
+/// The files that xacro reads for a robot: what `xacro --deps` lists. If it fails, as for a broken file, or names cannot
+/// be told apart, the xacro and YAML files of the robot's package. None for a URDF without macros, or in memory.
+pub fn included(file: &Path, settings: &Settings, cancellation: &Cancellation) -> Vec<PathBuf> {
+    if !matches!(settings.files, Files::Disk) {
+        return Vec::new();
+    }
+    let is_xacro = FileType::Xacro.is_of(file);
+    match is_xacro || settings.xacro.expand_urdf && has_macros(file) {
+        true => listed(file, settings, cancellation).unwrap_or_else(|| beside(file)),
+        false => Vec::new(),
+    }
+}
+
+/// Whether xacro reads such files.
+fn is_read(file: &Path) -> bool {
+    use FileType::{Document, Urdf, Xacro, Xml};
+    matches!(FileType::of(file), Some(Xacro | Xml | Urdf | Document))
+}
+
+fn has_macros(file: &Path) -> bool {
+    let text = regular::read(file, MAX_SOURCE_BYTES);
+    text.is_ok_and(|text| String::from_utf8_lossy(&text).contains("<xacro:"))
+}
+
+fn listed(file: &Path, settings: &Settings, cancellation: &Cancellation) -> Option<Vec<PathBuf>> {
+    let given = PackageIndex::new(&settings.packages, file).ok()?;
+    let text = run(&["--deps"], file, "", &settings.xacro, &given, None, cancellation).ok()?;
+    let files: Vec<PathBuf> = text.split_whitespace().map(PathBuf::from).collect();
+    // A name with a blank is listed as two.
+    files.iter().all(|file| file.is_file()).then_some(files)
+}
+
+/// The files with such endings in the folder of the file's package, or else in its own.
+fn beside(file: &Path) -> Vec<PathBuf> {
+    let Ok(file) = file.canonicalize() else {
+        return Vec::new();
+    };
+    let mut above = file.ancestors().skip(1);
+    let package = above.find(|folder| folder.join("package.xml").is_file());
+    let Some(folder) = package.or_else(|| file.parent()) else {
+        return Vec::new();
+    };
+    let (mut found, mut waiting, mut visited) = (Vec::new(), vec![folder.to_owned()], 0);
+    while let Some(folder) = waiting.pop() {
+        visited += 1;
+        if visited > MAX_LISTED || found.len() > MAX_LISTED {
+            break;
+        }
+        for entry in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            match entry.file_type() {
+                Ok(kind) if kind.is_dir() => waiting.push(path),
+                Ok(_) if is_read(&path) => found.push(path),
+                _ => {}
+            }
+        }
+    }
+    found
 }

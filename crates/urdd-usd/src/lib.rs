@@ -16,16 +16,12 @@
 mod binary;
 mod door;
 mod error;
-mod half;
 mod layer;
-mod package;
 mod stage;
 mod text;
-mod value;
 
 pub use binary::START as CRATE_START;
 pub use door::{Door, beside};
 pub use error::{Fault, Place, UsdError};
-pub use layer::MAX_LEVELS;
+pub use layer::{Item, ListOp, MAX_LEVELS, Name, Value};
 pub use stage::{Outline, Prim, Property, Stage, file, open, outline};
-pub use value::{Item, ListOp, Name, Value};

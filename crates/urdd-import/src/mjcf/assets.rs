@@ -1,23 +1,23 @@
-//! The files that the URDF names.
+//! The files that a model names: where they are, what the URDF gets of them, and MuJoCo's own mesh files (MSH).
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::super::fault::{ImportFault, Unreachable};
-use super::super::model::Asset;
-use super::super::names::Names;
-use super::super::place::{Place, TextFile};
-use super::super::refusal::{Fallible, Placing};
-use super::compiler::{Compiler, Compilers};
-use super::document::first;
 use urdd_directory::account::Charged;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::path::file_name;
+use urdd_geometry::Mesh;
 use urdd_source::FoundMesh;
 use urdd_source::gate::Gate;
 
-/// Where files are looked for.
+use super::compiler::{Compiler, Compilers};
+use super::document::first;
+use crate::fault::{ImportFault, Unreachable};
+use crate::model::Asset;
+use crate::place::{Fallible, Place, Placing, TextFile};
+use crate::tree::Names;
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Folder {
     Meshes,
@@ -65,7 +65,6 @@ pub struct Assets<'f> {
 }
 
 impl<'f> Assets<'f> {
-    /// None yet.
     pub fn new(gate: &'f Gate, compilers: &'f Compilers, files: &'f [TextFile]) -> Fallible<Self> {
         let mut names = Names::new(gate.account());
         // That of the mesh of ellipsoids.
@@ -74,7 +73,6 @@ impl<'f> Assets<'f> {
         Ok(Assets { gate, compilers, files, by_key, names, all })
     }
 
-    /// Finds a file that an element names.
     pub fn find(&self, file: &str, folder: Folder, place: Place) -> Fallible<FoundMesh> {
         let folder_of = |file: Option<&'f TextFile>| {
             file.and_then(|file| file.path.parent()).unwrap_or(Path::new("/"))
@@ -104,7 +102,6 @@ impl<'f> Assets<'f> {
         self.gate.image(found, start).map_err(unread).at(place)
     }
 
-    /// Charges what is made at a place, in bytes.
     pub fn charge(&self, bytes: usize, place: Place) -> Fallible<()> {
         self.gate.account().charge(bytes).at(place)
     }
@@ -135,5 +132,72 @@ impl<'f> Assets<'f> {
         self.all.push(Asset { path, bytes }, self.gate.account()).at(place)?;
         self.by_key.insert(key.to_owned(), self.all.len() - 1);
         Ok(self.all.len() - 1)
+    }
+}
+
+pub fn read_msh(bytes: &[u8]) -> Result<Mesh, &'static str> {
+    let (words, rest_of_word) = bytes.as_chunks::<4>();
+    let head: Option<&[[u8; 4]; 4]> = words.first_chunk();
+    let counts = head.ok_or("has no header of an MSH file")?.map(i32::from_le_bytes);
+    let counts = counts.map(|count| usize::try_from(count).ok());
+    let [Some(vertices), Some(normals), Some(places), Some(faces)] = counts else {
+        return Err("has a negative count in its MSH file");
+    };
+    let sizes = [(vertices, 3), (normals, 3), (places, 2), (faces, 3)];
+    // In a browser, a product of these is more than a `usize` has.
+    let length: u64 = sizes.iter().map(|(count, each)| *count as u64 * each).sum();
+    if words.len() as u64 != 4 + length || !rest_of_word.is_empty() || vertices < 4 {
+        return Err("is of another length than its MSH file says");
+    }
+    let (coordinates, rest) = words[4..].split_at(vertices * 3);
+    let indices = &rest[normals * 3 + places * 2..];
+    let points = coordinates.as_chunks().0.iter();
+    let points = points.map(|point: &[[u8; 4]; 3]| point.map(|x| f64::from(f32::from_le_bytes(x))));
+    let triangles = indices.as_chunks().0.iter();
+    let triangles: Vec<[u32; 3]> =
+        triangles.map(|face: &[[u8; 4]; 3]| face.map(u32::from_le_bytes)).collect();
+    let mesh = Mesh { vertices: points.collect(), triangles };
+    if mesh.triangles.as_flattened().iter().any(|index| *index as usize >= vertices) {
+        return Err("has a face of a vertex that its MSH file does not have");
+    }
+    if !mesh.vertices.as_flattened().iter().all(|x| x.is_finite()) {
+        return Err("has a vertex that is not finite");
+    }
+    Ok(mesh)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_those_of_the_length() {
+        let file = |counts: [i32; 4], words: usize| -> Vec<u8> {
+            let body = vec![0; 4 * words];
+            counts.iter().flat_map(|count| count.to_le_bytes()).chain(body).collect()
+        };
+        assert!(read_msh(&file([4, 0, 0, 1], 15)).is_ok());
+        for (counts, words) in [
+            ([4, 0, 0, 1], 14),
+            ([4, 0, 0, i32::MAX], 15),
+            // Three times that is 2 more than 32 bits have.
+            ([0x5555_5556, 0, 0, 0], 2),
+            ([0x5555_5556, 0x5555_5556, 0, 1], 7),
+            ([-1, 0, 0, 0], 0),
+        ] {
+            assert!(read_msh(&file(counts, words)).is_err(), "{counts:?}");
+        }
+    }
+
+    #[test]
+    fn faces_are_of_vertices_that_are_there_and_finite() {
+        let with = |place: usize, word: u32| {
+            let mut words = [4, 0, 0, 1].into_iter().chain([0; 15]).collect::<Vec<u32>>();
+            words[4 + place] = word;
+            read_msh(&words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>())
+        };
+        assert!(with(14, 3).is_ok() && with(11, 1.0_f32.to_bits()).is_ok());
+        assert!(with(14, 4).is_err() && with(14, u32::MAX).is_err());
+        assert!(with(11, f32::NAN.to_bits()).is_err() && with(0, f32::INFINITY.to_bits()).is_err());
     }
 }

@@ -1,23 +1,18 @@
-//! The tree of bodies, with frames and replicas written out.
+//! The tree of bodies, with frames and replicas written out, and what is in it by name.
 
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Translation3, Vector3};
+use urdd_directory::account::{Account, Charged};
 
-use super::super::features::{self, Tally};
-use super::super::model::{Body, Closing, Coupled, Joint, JointKind};
-use super::super::place::Place;
-use super::super::price::LETTER;
-use super::super::refusal::{Fallible, Placing, at};
-use super::compiler::Compilers;
-use super::defaults::{Defaults, MAIN, PASSED};
-use super::element::Element;
-use super::fault::MjcfFault;
+use super::compiler::{Compilers, euler, pose};
 use super::geom::{Geom, between};
 use super::joint;
-use super::orientation::{euler, pose};
-use super::reading::{Attributes, View, required, wrong};
-use urdd_directory::account::{Account, Charged};
+use super::reading::{Attributes, Defaults, Element, MAIN, PASSED, View, required, unknown, wrong};
+use crate::fault::MjcfFault;
+use crate::features::{self, Tally};
+use crate::model::{Body, Closing, Coupled, Joint, JointKind, LETTER};
+use crate::place::{Fallible, Place, Placing, at};
 
 /// What an element costs beside what the model has of it, bytes.
 const RAW: usize = 2000;
@@ -25,7 +20,6 @@ const RAW: usize = 2000;
 /// The world is the first body.
 pub const WORLD: usize = 0;
 
-/// A body.
 #[derive(Default)]
 pub struct RawBody<'d> {
     pub name: Option<String>,
@@ -53,7 +47,6 @@ pub struct RawFrame {
     pub place: Place,
 }
 
-/// The bodies of a model.
 pub struct Bodies<'d> {
     /// The world first, each parent before its children.
     pub all: Vec<RawBody<'d>>,
@@ -63,7 +56,6 @@ pub struct Bodies<'d> {
     pub is_partial: bool,
 }
 
-/// The bodies of a model.
 pub fn bodies<'d>(
     root: &'d Element,
     defaults: &'d Defaults<'d>,
@@ -271,4 +263,85 @@ pub struct Made {
     /// What closes its chains, and equations that no mimic can say.
     pub closings: Charged<Closing>,
     pub couplings: Charged<Coupled>,
+}
+
+/// Bodies, joints and shapes by name.
+pub struct Lookup<'b> {
+    bodies: HashMap<&'b str, usize>,
+    /// By body and place in it.
+    joints: HashMap<&'b str, (usize, usize)>,
+    geoms: HashMap<&'b str, (usize, usize)>,
+    suffixes: &'b HashMap<String, Vec<String>>,
+    account: &'b Account,
+}
+
+/// What an element costs for each replica of what it names, beside the names.
+const REPLICA: usize = 200;
+
+impl<'b> Lookup<'b> {
+    pub fn of(bodies: &'b Bodies<'_>, account: &'b Account) -> Self {
+        let mut lookup = Lookup {
+            bodies: HashMap::from([("world", super::body::WORLD)]),
+            joints: HashMap::new(),
+            geoms: HashMap::new(),
+            suffixes: &bodies.suffixes,
+            account,
+        };
+        for (index, body) in bodies.all.iter().enumerate() {
+            lookup.bodies.extend(body.name.as_deref().map(|name| (name, index)));
+            let joints = body.joints.iter().enumerate().filter(|(_, of)| !of.name.is_empty());
+            lookup.joints.extend(joints.map(|(at, of)| (of.name.as_str(), (index, at))));
+            let geoms = body.geoms.iter().enumerate();
+            lookup
+                .geoms
+                .extend(geoms.filter_map(|(at, of)| Some((of.name.as_deref()?, (index, at)))));
+        }
+        lookup
+    }
+
+    /// What is put behind the names that an element says, once for each replica of what it names.
+    pub fn replicas(&self, element: &Element, names: &[Option<&str>]) -> Fallible<&'b [String]> {
+        const ITSELF: &[String] = &[String::new()];
+        let is_known = |name: &str| {
+            self.joints.contains_key(name)
+                || self.bodies.contains_key(name)
+                || self.geoms.contains_key(name)
+        };
+        let mut replicated = names.iter().flatten().filter(|name| !is_known(name));
+        let suffixes = replicated.find_map(|name| self.suffixes.get(*name));
+        let suffixes = suffixes.map_or(ITSELF, Vec::as_slice);
+        let each = REPLICA + names.iter().flatten().map(|name| name.len()).sum::<usize>();
+        self.account.charge(suffixes.len().saturating_mul(each)).at(element.place)?;
+        Ok(suffixes)
+    }
+
+    pub fn charge(&self, element: &Element, work: usize) -> Fallible<()> {
+        self.account.charge(work).at(element.place)
+    }
+
+    pub fn joint(&self, element: &Element, name: &str, suffix: &str) -> Fallible<(usize, usize)> {
+        found(&self.joints, element, "joint", name, suffix)
+    }
+
+    pub fn body(&self, element: &Element, name: &str, suffix: &str) -> Fallible<usize> {
+        found(&self.bodies, element, "body", name, suffix)
+    }
+
+    pub fn geom(&self, element: &Element, name: &str, suffix: &str) -> Fallible<(usize, usize)> {
+        found(&self.geoms, element, "geom", name, suffix)
+    }
+}
+
+fn found<T: Copy>(
+    named: &HashMap<&str, T>,
+    element: &Element,
+    what: &'static str,
+    name: &str,
+    suffix: &str,
+) -> Fallible<T> {
+    let replica = match suffix {
+        "" => None,
+        suffix => named.get(format!("{name}{suffix}").as_str()),
+    };
+    replica.or_else(|| named.get(name)).copied().ok_or_else(|| unknown(element, what, name))
 }

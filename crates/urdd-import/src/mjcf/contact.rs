@@ -2,22 +2,18 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::super::features::{self, Tally};
-use super::super::model::Apart;
-use super::super::place::Place;
-use super::super::price::LETTER;
-use super::super::refusal::{Fallible, Placing};
-use super::body::{Made, RawBody, WORLD};
-use super::element::Element;
-use super::geom::{Geom, GeomKind};
-use super::lookup::Lookup;
-use super::reading::Attributes;
 use urdd_directory::account::{Account, Charged};
+
+use super::body::{Lookup, Made, RawBody, WORLD};
+use super::geom::{Geom, GeomKind};
+use super::reading::{Attributes, Element};
+use crate::features::{self, Tally};
+use crate::model::{Apart, LETTER};
+use crate::place::{Fallible, Place, Placing};
 
 /// Bodies that can collide; their pairs are counted one by one.
 const MOST: usize = 1500;
 
-/// What `<contact>` says.
 #[derive(Default)]
 pub struct Contacts {
     /// Shapes of pairs that always collide, by body and place in it.
@@ -29,7 +25,6 @@ pub struct Contacts {
     keeps_parents: bool,
 }
 
-/// Pairs of bodies of the robot.
 #[derive(Default)]
 pub struct Pairs {
     /// Those that never collide, though both have shapes that do.
@@ -45,7 +40,6 @@ const BITS: usize = 32;
 struct Solid(usize, usize, Vec<[u32; 2]>);
 
 impl Contacts {
-    /// Reads `<contact>`.
     pub fn of(root: &Element, lookup: &Lookup<'_>, tally: &mut Tally) -> Fallible<Self> {
         let mut contacts = Contacts::default();
         for flags in root.sections("option").filter(|of| of.tag == "flag") {
@@ -81,7 +75,6 @@ impl Contacts {
         Ok(contacts)
     }
 
-    /// Whether a shape is only seen.
     pub fn is_visual(&self, geom: &Geom<'_>, body: usize, place: usize) -> bool {
         geom.is_visual() && !self.paired.contains(&(body, place))
     }
@@ -111,15 +104,15 @@ impl Contacts {
                 }
                 account.charge(bits.len() * others.len() - 1).at(all[*second].place)?;
                 let (none, every) = meet(bits, others);
-                let near = are_neighbours(all, &welds, *first, *second);
-                let reason = match near {
-                    Some(Near::Same) => "Adjacent",
-                    Some(Near::Parent) if !self.keeps_parents => "Adjacent",
-                    _ if none => "Never",
-                    Some(Near::Parent) if !self.excluded.contains(&ordered(*first, *second)) => {
-                        CHECKED
-                    }
-                    _ => "",
+                let (is_same, is_parent) = neighbours(all, &welds, *first, *second);
+                let reason = if is_same || is_parent && !self.keeps_parents {
+                    "Adjacent"
+                } else if none {
+                    "Never"
+                } else if is_parent && !self.excluded.contains(&ordered(*first, *second)) {
+                    CHECKED
+                } else {
+                    ""
                 };
                 if !every && matches!(reason, "" | CHECKED) {
                     tally.count(features::PARTLY_APART);
@@ -213,23 +206,11 @@ fn welds(all: &[RawBody<'_>]) -> Vec<usize> {
     welds
 }
 
-/// How two bodies are near each other.
-enum Near {
-    /// They move together.
-    Same,
-    /// One moves on the other, which is not the world.
-    Parent,
-}
-
-/// MuJoCo's own rule: bodies that move together, and a body and the one that it moves on, but for the world.
-fn are_neighbours(all: &[RawBody<'_>], welds: &[usize], a: usize, b: usize) -> Option<Near> {
+/// MuJoCo's own rule: whether bodies move together, and whether one of them moves on the other, but for the world.
+fn neighbours(all: &[RawBody<'_>], welds: &[usize], a: usize, b: usize) -> (bool, bool) {
     let [a, b] = [welds[a], welds[b]];
     let under = |weld: usize| all[weld].parent.map_or(WORLD, |parent| welds[parent]);
-    let is_parent = a != WORLD && b != WORLD && (a == under(b) || b == under(a));
-    match a == b {
-        true => Some(Near::Same),
-        false => is_parent.then_some(Near::Parent),
-    }
+    (a == b, a != WORLD && b != WORLD && (a == under(b) || b == under(a)))
 }
 
 /// The coefficient of friction of all shapes that collide, where some say it and all have the same.
@@ -249,8 +230,6 @@ pub fn friction(all: &[RawBody<'_>], made: &Made, tally: &mut Tally) -> Option<f
     let first = said.iter().flatten().next()?;
     let is_one = said.iter().all(|of| of.unwrap_or(1.0).to_bits() == first.to_bits());
     let feature = if is_one { features::FRICTION } else { features::FRICTIONS };
-    for _ in said.iter().flatten() {
-        tally.count(feature);
-    }
+    tally.add(feature, said.iter().flatten().count());
     is_one.then_some(*first)
 }

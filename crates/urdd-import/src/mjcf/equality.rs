@@ -1,16 +1,17 @@
 //! Equalities: joints that follow others as mimics, other equations of joints, and what closes chains.
 
-use super::super::features::{self, Tally};
-use super::super::model::{Closing, Coupled, JointKind, Mimic};
-use super::super::refusal::{Fallible, Placing};
-use super::body::{Made, RawBody, WORLD};
-use super::closing::Placed;
-use super::defaults::{Defaults, MAIN};
-use super::element::Element;
-use super::lookup::Lookup;
-use super::reading::{Attributes, View};
+use std::collections::HashMap;
+
+use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use urdd_directory::account::{Account, Charged};
+use urdd_format::loops::LoopKind;
 use urdd_format::short::Short;
+
+use super::body::{Lookup, Made, RawBody, WORLD};
+use super::reading::{Attributes, Defaults, Element, MAIN, View};
+use crate::features::{self, Tally};
+use crate::model::{Closing, Coupled, End, JointKind, Mimic};
+use crate::place::{Fallible, Placing};
 
 /// Joints that follow one another; a longer chain is left out.
 const LONGEST: usize = 1000;
@@ -29,14 +30,10 @@ pub fn equalities<'d>(
 ) -> Fallible<()> {
     let mut closings = Charged::default();
     let placed = Placed::of(made);
-    for element in root.sections("equality") {
-        let is_tie = matches!(element.tag.as_str(), "connect" | "weld" | "distance");
-        if !is_tie {
-            continue;
-        }
+    let is_tie = |of: &&Element| matches!(of.tag.as_str(), "connect" | "weld" | "distance");
+    for element in root.sections("equality").filter(is_tie) {
         let view = View::new(element, defaults, MAIN)?;
-        let closing = tie(view, is_active(view)?, all, lookup, (made, &placed), tally)?;
-        if let Some(closing) = closing {
+        if let Some(closing) = tie(view, all, lookup, (made, &placed), tally)? {
             closings.push(closing, account).at(element.place)?;
         }
     }
@@ -46,9 +43,8 @@ pub fn equalities<'d>(
         match element.tag.as_str() {
             "joint" if is_active(view)? => couple(view, all, lookup, made, tally, account)?,
             "joint" => {
-                tally.count(features::COUPLINGS);
-                tally
-                    .remark(element.place, "the equality is not active, so its joint moves freely");
+                let text = "the equality is not active, so its joint moves freely";
+                tally.say(features::COUPLINGS, element.place, text);
             }
             "connect" | "weld" | "distance" => {}
             "tendon" => tally.count(features::TENDONS),
@@ -59,25 +55,19 @@ pub fn equalities<'d>(
 }
 
 fn is_active(view: View<'_>) -> Fallible<bool> {
-    Ok(match view.element.flag("active")? {
-        Some(active) => active,
-        None => {
-            let of_class = view.equality_default();
-            of_class.map_or(Ok(None), |of| of.flag("active"))?.unwrap_or(true)
-        }
-    })
+    let of_class = view.equality_default().filter(|_| view.element.get("active").is_none());
+    Ok(of_class.unwrap_or(view.element).flag("active")?.unwrap_or(true))
 }
 
 /// Two bodies that are tied to each other, beside the tree.
 fn tie(
     view: View<'_>,
-    is_active: bool,
     all: &[RawBody<'_>],
     lookup: &Lookup<'_>,
     (made, placed): (&Made, &Placed<'_>),
     tally: &mut Tally,
 ) -> Fallible<Option<Closing>> {
-    let element = view.element;
+    let (element, is_active) = (view.element, is_active(view)?);
     let named = |key| element.text(key).map(|name| Short::of(name).to_string());
     let sites = [named("site1"), named("site2")];
     let names = [element.text("body1"), element.text("body2")];
@@ -116,7 +106,6 @@ fn tie(
         }
         feature = features::TIES;
     }
-    tally.count(feature);
     let [one, other] = who;
     let at = match named("anchor").filter(|_| element.tag == "connect") {
         Some(anchor) => format!(" at {anchor} of `{one}`"),
@@ -124,7 +113,7 @@ fn tie(
     };
     let name = named("name").map(|name| format!(" `{name}`")).unwrap_or_default();
     let text = format!("the {}{name} of `{one}` and `{other}`{at} {what}", element.tag);
-    tally.remark(element.place, text.replace(char::is_control, " "));
+    tally.say(feature, element.place, text.replace(char::is_control, " "));
     Ok(None)
 }
 
@@ -171,36 +160,30 @@ fn couple(
             made.bodies[body].joints[place].mimic = Some(Mimic { joint, multiplier: c1, offset });
             made.leaders.insert((body, place), (leading_body, leading_place));
             tally.count(features::MIMICS);
-        } else if let Some((leader, at_leader)) = leading
-            .filter(|(leader, _)| is_plain(*leader) && is_plain(follower) && *leader != follower)
-        {
-            let name = |(body, place): (usize, usize)| made.bodies[body].joints[place].name.clone();
-            let [of_follower, of_leader] = [follower, leader].map(|at| raw(at).reference);
-            let powers = [c0, c1].into_iter().chain(rest.iter().map(|of| of.unwrap_or(0.0)));
-            let (moved, coefficients) = about_zero(&powers.collect::<Vec<_>>(), of_leader);
-            let coupled = Coupled {
-                name: element.text("name").map(|name| format!("{name}{suffix}")),
-                constant: -of_follower - moved,
-                terms: vec![
-                    (name((body, place)), vec![1.0]),
-                    (name(at_leader), coefficients.iter().map(|of| -of).collect()),
-                ],
-            };
-            tally.count(features::POLYNOMIALS);
-            made.couplings.push(coupled, account).at(element.place)?;
-        } else if names[1].is_none() && is_plain(follower) {
+            continue;
+        }
+        let name = |(body, place): (usize, usize)| made.bodies[body].joints[place].name.clone();
+        let (own, reference) = ((name((body, place)), vec![1.0]), raw(follower).reference);
+        let equation = match leading.filter(|_| is_plain(follower)) {
+            Some((leader, at)) if is_plain(leader) && leader != follower => {
+                let powers = [c0, c1].into_iter().chain(rest.iter().map(|of| of.unwrap_or(0.0)));
+                let powers: Vec<f64> = powers.collect();
+                let (moved, coefficients) = about_zero(&powers, raw(leader).reference);
+                let of_leader = coefficients.iter().map(|of| -of).collect();
+                Some((-reference - moved, vec![own, (name(at), of_leader)]))
+            }
             // y - y0 = c0
-            let coupled = Coupled {
-                name: element.text("name").map(|name| format!("{name}{suffix}")),
-                constant: -raw(follower).reference - c0,
-                terms: vec![(made.bodies[body].joints[place].name.clone(), vec![1.0])],
-            };
+            None if names[1].is_none() && is_plain(follower) => Some((-reference - c0, vec![own])),
+            _ => None,
+        };
+        if let Some((constant, terms)) = equation {
+            let name = element.text("name").map(|name| format!("{name}{suffix}"));
             tally.count(features::POLYNOMIALS);
-            made.couplings.push(coupled, account).at(element.place)?;
+            made.couplings.push(Coupled { name, constant, terms }, account).at(element.place)?;
         } else {
-            tally.count(features::COUPLINGS);
             let reason = reason.unwrap_or_default();
-            tally.remark(element.place, format!("an equality of joints is left out: {reason}"));
+            let text = format!("an equality of joints is left out: {reason}");
+            tally.say(features::COUPLINGS, element.place, text);
         }
     }
     Ok(())
@@ -232,4 +215,87 @@ fn leads_back(made: &Made, from: (usize, usize), to: (usize, usize)) -> (bool, u
         }
     }
     (false, number)
+}
+
+/// The bodies of a robot in its first body's frame, in the pose of the model (`qpos0`), and its sites by name.
+pub struct Placed<'m> {
+    poses: Vec<Isometry3<f64>>,
+    sites: HashMap<&'m str, usize>,
+}
+
+impl<'m> Placed<'m> {
+    pub fn of(made: &'m Made) -> Self {
+        let mut poses: Vec<Isometry3<f64>> = Vec::with_capacity(made.bodies.len());
+        for body in &made.bodies {
+            let parent = body.parent.and_then(|parent| poses.get(parent));
+            poses.push(parent.map_or_else(Isometry3::identity, |parent| parent * body.pose));
+        }
+        let sites = made.bodies.iter().enumerate().filter(|(_, body)| body.is_frame);
+        let sites = sites.map(|(index, body)| (body.name.as_str(), index)).collect();
+        Placed { poses, sites }
+    }
+
+    /// The loop of a `connect` or `weld` between two bodies, by raw index. `None` if one is not of the robot, or it is of
+    /// another kind.
+    pub fn bodies(
+        &self,
+        view: View<'_>,
+        [one, other]: [usize; 2],
+        made: &Made,
+    ) -> Fallible<Option<Closing>> {
+        let ends = made.index.get(&one).copied().zip(made.index.get(&other).copied());
+        let Some((a, b)) = ends.filter(|(a, b)| a != b) else { return Ok(None) };
+        let (at_a, at_b) = (self.poses[a], self.poses[b]);
+        let anchor = view.numbers::<3>("anchor")?.unwrap_or_default();
+        let (kind, frames) = match view.element.tag.as_str() {
+            "connect" => {
+                // A point of the first body, where the model has it.
+                let point = Isometry3::from(Translation3::from(anchor));
+                (LoopKind::Spherical, [point, at_b.inverse() * at_a * point])
+            }
+            "weld" => {
+                let written = view.numbers::<7>("relpose")?.unwrap_or_default();
+                let [x, y, z, w, i, j, k] = written;
+                let turn = UnitQuaternion::try_new(Quaternion::new(w, i, j, k), 0.0);
+                let relative = match turn {
+                    Some(turn) => Isometry3::from_parts(Translation3::new(x, y, z), turn),
+                    None => at_a.inverse() * at_b,
+                };
+                // Where it is held, in the second body.
+                let point = Isometry3::from(Translation3::from(Point3::from(anchor)));
+                (welded(view)?, [relative * point, point])
+            }
+            _ => return Ok(None),
+        };
+        let [frame_a, frame_b] = frames;
+        let ends = [End { body: a, frame: frame_a }, End { body: b, frame: frame_b }];
+        Ok(Some(closing(view, kind, ends)))
+    }
+
+    /// The loop of a `connect` or `weld` between two sites.
+    pub fn sites(&self, view: View<'_>, names: [&str; 2]) -> Fallible<Option<Closing>> {
+        let [a, b] = names.map(|name| self.sites.get(name).copied());
+        let kind = match view.element.tag.as_str() {
+            "connect" => LoopKind::Spherical,
+            "weld" => welded(view)?,
+            _ => return Ok(None),
+        };
+        let Some((a, b)) = a.zip(b).filter(|(a, b)| a != b) else { return Ok(None) };
+        let ends = [a, b].map(|body| End { body, frame: Isometry3::identity() });
+        Ok(Some(closing(view, kind, ends)))
+    }
+}
+
+/// What a weld holds: without `torquescale` no rotation, as in MuJoCo.
+fn welded(view: View<'_>) -> Fallible<LoopKind> {
+    let scale = view.numbers::<1>("torquescale")?;
+    Ok(match scale {
+        Some([0.0]) => LoopKind::Spherical,
+        _ => LoopKind::Fixed,
+    })
+}
+
+fn closing(view: View<'_>, kind: LoopKind, ends: [End; 2]) -> Closing {
+    let name = view.element.text("name").map(str::to_owned);
+    Closing { name, kind, ends, place: view.element.place }
 }

@@ -1,16 +1,18 @@
-//! Shapes, as a model says them.
+//! Shapes, as a model says them, with their colours, materials and textures.
+
+use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 
-use super::super::model::Geometry;
-use super::super::place::Place;
-use super::super::refusal::{Fallible, at};
-use super::compiler::Compiler;
-use super::fault::MjcfFault;
-use super::orientation::{pose, z_to};
-use super::reading::{Attributes, View};
+use super::assets::{Assets, Folder};
+use super::compiler::{Compiler, pose, z_to};
+use super::mesh::Meshes;
+use super::reading::{Attributes, Defaults, Element, MAIN, View};
+use crate::fault::MjcfFault;
+use crate::features::{self, Tally};
+use crate::model::{Geometry, Material};
+use crate::place::{Fallible, Place, at};
 
-/// What a shape is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GeomKind {
     Plane,
@@ -37,7 +39,6 @@ const KINDS: [(&str, GeomKind); 9] = [
 ];
 
 impl GeomKind {
-    /// How many sizes it has.
     pub fn sizes(self) -> usize {
         match self {
             GeomKind::Sphere => 1,
@@ -67,7 +68,6 @@ impl GeomKind {
     }
 }
 
-/// A shape of a body.
 #[derive(Debug, Clone)]
 pub struct Geom<'d> {
     pub name: Option<String>,
@@ -141,7 +141,6 @@ impl<'d> Geom<'d> {
         })
     }
 
-    /// Whether it is only seen.
     pub fn is_visual(&self) -> bool {
         self.contype == 0 && self.conaffinity == 0
     }
@@ -176,4 +175,119 @@ pub fn between(view: View<'_>) -> Fallible<Option<(Isometry3<f64>, f64)>> {
     let along = along.ok_or_else(|| at(view.element.place, MjcfFault::FromTo))?;
     let middle = Translation3::from((from + to) / 2.0);
     Ok(Some((Isometry3::from_parts(middle, z_to(along)), (from - to).norm() / 2.0)))
+}
+
+/// The colour of a shape that names none: the material goes before it.
+const GREY: [f64; 4] = [0.5, 0.5, 0.5, 1.0];
+const PNG: &[u8] = b"\x89PNG";
+
+pub struct Materials<'d> {
+    by_name: HashMap<&'d str, View<'d>>,
+    textures: HashMap<&'d str, &'d Element>,
+}
+
+impl<'d> Materials<'d> {
+    /// The materials and textures that a model defines.
+    pub fn of_model(root: &'d Element, defaults: &'d Defaults<'d>) -> Fallible<Self> {
+        let mut materials = Materials { by_name: HashMap::new(), textures: HashMap::new() };
+        for element in root.sections("asset") {
+            match (element.tag.as_str(), element.text("name").or(element.stem())) {
+                ("material", Some(name)) => {
+                    materials.by_name.insert(name, View::new(element, defaults, MAIN)?);
+                }
+                ("texture", Some(name)) => {
+                    materials.textures.insert(name, element);
+                }
+                _ => {}
+            }
+        }
+        Ok(materials)
+    }
+
+    /// How a shape looks, if it says it.
+    pub fn of(
+        &self,
+        geom: &Geom<'d>,
+        meshes: &Meshes<'d>,
+        assets: &mut Assets<'_>,
+        tally: &mut Tally,
+    ) -> Fallible<Option<Material>> {
+        let (name, own) = said(geom, meshes);
+        let Some(name) = name else {
+            return Ok(own.map(|rgba| {
+                tally.count(features::COLOURS);
+                Material { name: None, rgba: Some(rgba), texture: None }
+            }));
+        };
+        let view = self.by_name.get(name);
+        let view =
+            view.ok_or_else(|| at(geom.place, MjcfFault::UnknownMaterial(name.to_owned())))?;
+        let rgba = match own {
+            Some(own) => Some(own),
+            None => Some(view.numbers::<4>("rgba")?.unwrap_or([1.0; 4])),
+        };
+        tally.count(features::COLOURS);
+        let layers = view.element.all("layer");
+        let mut colours = layers.filter(|layer| matches!(layer.get("role"), Some("rgb" | "rgba")));
+        let texture =
+            view.text("texture").or_else(|| colours.find_map(|layer| layer.text("texture")));
+        let texture = match texture {
+            Some(texture) => self.texture(texture, *view, assets, tally)?,
+            None => None,
+        };
+        // A name stands for one look.
+        let name = own.is_none().then(|| name.to_owned());
+        Ok(Some(Material { name, rgba, texture }))
+    }
+
+    /// Whether a shape is transparent.
+    pub fn is_clear(&self, geom: &Geom<'d>, meshes: &Meshes<'d>) -> Fallible<bool> {
+        let (name, own) = said(geom, meshes);
+        let view = name.filter(|_| own.is_none()).and_then(|name| self.by_name.get(name));
+        let rgba = match view {
+            Some(view) => view.numbers::<4>("rgba")?,
+            None => own,
+        };
+        Ok(rgba.is_some_and(|rgba| rgba[3] == 0.0))
+    }
+
+    fn texture(
+        &self,
+        name: &str,
+        material: View<'d>,
+        assets: &mut Assets<'_>,
+        tally: &mut Tally,
+    ) -> Fallible<Option<usize>> {
+        let place = material.element.place;
+        let texture = self.textures.get(name);
+        let texture =
+            texture.ok_or_else(|| at(place, MjcfFault::UnknownTexture(name.to_owned())))?;
+        let is_flat = texture.get("type") == Some("2d");
+        let Some(file) =
+            texture.text("file").filter(|_| is_flat && texture.get("gridsize").is_none())
+        else {
+            tally.count(features::MADE_TEXTURES);
+            return Ok(None);
+        };
+        let found = assets.find(file, Folder::Textures, texture.place)?;
+        let key = format!("image {}", found.file.display());
+        if let Some(known) = assets.known(&key) {
+            tally.count(features::TEXTURES);
+            return Ok(Some(known));
+        }
+        let Some(bytes) = assets.image(&found, PNG, texture.place)? else {
+            tally.count(features::MADE_TEXTURES);
+            return Ok(None);
+        };
+        tally.count(features::TEXTURES);
+        let stem = found.file.file_stem().unwrap_or_default().to_string_lossy();
+        let path = format!("textures/{stem}.png");
+        assets.add(&key, &path, bytes.into(), texture.place).map(Some)
+    }
+}
+
+/// The material of a shape, and the colour that goes before it.
+fn said<'d>(geom: &Geom<'d>, meshes: &Meshes<'d>) -> (Option<&'d str>, Option<[f64; 4]>) {
+    let name = geom.material.or_else(|| meshes.material(geom.mesh?));
+    (name, geom.rgba.filter(|rgba| name.is_none() || *rgba != GREY))
 }

@@ -1,28 +1,24 @@
-//! Masses: as a model says them, or from shapes, as MuJoCo's compiler does.
+//! Masses, as a model says them, or from shapes, as MuJoCo's compiler does; and the primitives that it fits to meshes.
 
-use nalgebra::Matrix3;
+use nalgebra::{Isometry3, Matrix3, Point3, Translation3, UnitQuaternion, Vector3};
+use urdd_geometry::mesh::Bounds;
 
-use super::super::mass::{moments, tensor, turned, volume};
-use super::super::model::Inertial;
-use super::super::place::Place;
-use super::super::refusal::{Fallible, at};
 use super::assets::Assets;
 use super::body::RawBody;
-use super::compiler::{Compiler, FromShapes};
-use super::fault::MjcfFault;
-use super::fit::Fitted;
-use super::geom::Geom;
+use super::compiler::{Compiler, orientation};
+use super::geom::{Geom, GeomKind};
 use super::mesh::Meshes;
-use super::orientation::orientation;
-use super::principal::principal;
 use super::reading::{Attributes, View, missing};
+use crate::fault::MjcfFault;
+use crate::mass::{moments, tensor, turned, volume};
+use crate::model::Inertial;
+use crate::place::{Fallible, Place, at};
 
 /// Masses that are smaller are none.
 const SMALL: f64 = 1e-14;
 /// How far, as a part, moments may break A + B ≥ C where they were computed.
 const ROUNDING: f64 = 1e-9;
 
-/// The mass of a body, if it has one.
 pub fn inertial(
     body: &RawBody<'_>,
     fitted: &[Fitted],
@@ -32,12 +28,7 @@ pub fn inertial(
 ) -> Fallible<Option<Inertial>> {
     let mut part = body.inertial.map(|view| said(view, compiler)).transpose()?;
     let place = body.inertial.map_or(body.place, |view| view.element.place);
-    let is_from_shapes = match compiler.from_shapes {
-        FromShapes::Never => false,
-        FromShapes::Always => true,
-        FromShapes::Auto => part.is_none(),
-    };
-    if is_from_shapes {
+    if compiler.from_shapes.unwrap_or(part.is_none()) {
         let mut parts = Vec::new();
         for (geom, fitted) in body.geoms.iter().zip(fitted) {
             if compiler.mass_groups.contains(&geom.group) {
@@ -88,7 +79,6 @@ fn said(view: View<'_>, compiler: &Compiler) -> Fallible<Inertial> {
     Ok(Inertial { mass, centre: centre.into(), inertia })
 }
 
-/// The mass of a shape, if it has one.
 fn of_shape(
     geom: &Geom<'_>,
     fitted: &Fitted,
@@ -142,4 +132,105 @@ fn bounded(inertia: Matrix3<f64>, compiler: &Compiler, place: Place) -> Fallible
         return Err(at(place, MjcfFault::Unbalanced(moments)));
     }
     Ok(Matrix3::identity() * ((a + b + c) / 3.0))
+}
+
+/// A shape with its size: its frame in its body's, radius and half lengths.
+#[derive(Debug, Clone, Copy)]
+pub struct Fitted {
+    pub pose: Isometry3<f64>,
+    pub size: [f64; 3],
+}
+
+pub fn fitted(
+    geom: &Geom<'_>,
+    compiler: &Compiler,
+    meshes: &mut Meshes<'_>,
+    assets: &Assets<'_>,
+) -> Fallible<Fitted> {
+    let mesh = match geom.mesh {
+        Some(mesh) if geom.kind.sizes() > 0 => mesh,
+        _ => return Ok(Fitted { pose: geom.pose, size: geom.size }),
+    };
+    let measures = meshes.measures(mesh, geom.place, assets)?;
+    let (moments, axes) = principal(&measures.inertia);
+    let mut frame = Isometry3::from_parts(measures.centre.coords.into(), axes);
+    let [a, b, c] = match compiler.fits_boxes {
+        false => {
+            // The half lengths of the box that has these moments.
+            let sum: f64 = moments.iter().sum();
+            moments.map(|moment| (1.5 * (sum - 2.0 * moment).max(0.0) / measures.mass).sqrt())
+        }
+        true => {
+            let placed = meshes.placed(mesh, geom.place, assets)?;
+            let points = placed
+                .vertices
+                .iter()
+                .map(|vertex| frame.inverse_transform_point(&Point3::from(*vertex)).coords.into());
+            let bounds = Bounds::of(points);
+            let centre = [0, 1, 2].map(|axis| (bounds.min[axis] + bounds.max[axis]) / 2.0);
+            frame *= Translation3::from(centre);
+            bounds.size().map(|length| length / 2.0)
+        }
+    };
+    let size = match (geom.kind, compiler.fits_boxes) {
+        (GeomKind::Sphere, false) => [(a + b + c) / 3.0, 0.0, 0.0],
+        (GeomKind::Sphere, true) => [a.max(b).max(c), 0.0, 0.0],
+        (GeomKind::Capsule, false) => [(a + b) / 2.0, (c - (a + b) / 4.0).max(0.0), 0.0],
+        (GeomKind::Cylinder, false) => [(a + b) / 2.0, c, 0.0],
+        (GeomKind::Capsule, true) => [a.max(b), c - a.max(b), 0.0],
+        (GeomKind::Cylinder, true) => [a.max(b), c, 0.0],
+        _ => [a, b, c],
+    };
+    let size = size.map(|size| size * geom.fit_scale);
+    if let Some(wrong) = size[..geom.kind.sizes()].iter().position(|size| *size <= 0.0) {
+        return Err(at(geom.place, MjcfFault::Size(wrong + 1)));
+    }
+    Ok(Fitted { pose: geom.pose * frame, size })
+}
+
+/// Elements beside the diagonal that are smaller, as a part of the greatest moment, are 0.
+const BESIDE: f64 = 1e-16;
+/// Moments that differ by less, as a part of the greatest, are equal.
+const EQUAL: f64 = 1e-12;
+/// Rounds of Jacobi's method. A handful is enough.
+const MOST: usize = 100;
+
+/// The moments, the greatest first, and the rotation to their axes. It matters which axes of equal moments are chosen
+/// where a primitive is fitted to a mesh; so this is Jacobi's method, which turns away the greatest element first.
+pub fn principal(inertia: &Matrix3<f64>) -> ([f64; 3], UnitQuaternion<f64>) {
+    let mut axes = UnitQuaternion::identity();
+    let mut values = [0.0; 3];
+    let size = inertia.amax();
+    for _ in 0..MOST {
+        let basis = axes.to_rotation_matrix();
+        let turned = basis.matrix().transpose() * inertia * basis.matrix();
+        values = [0, 1, 2].map(|axis| turned[(axis, axis)]);
+        let beside = |row, column| turned[(row, column)].abs();
+        let (row, column, about) = if beside(0, 1) > beside(0, 2) && beside(0, 1) > beside(1, 2) {
+            (0, 1, 2)
+        } else if beside(0, 2) > beside(1, 2) {
+            (0, 2, 1)
+        } else {
+            (1, 2, 0)
+        };
+        if beside(row, column) <= BESIDE * size {
+            break;
+        }
+        let tau = (values[column] - values[row]) / (2.0 * turned[(row, column)]);
+        let tangent = tau.signum() / (tau.abs() + (1.0 + tau * tau).sqrt());
+        let angle = if about == 1 { tangent.atan() } else { -tangent.atan() };
+        axes *= turn(about, angle);
+    }
+    for first in [0, 1, 0] {
+        if values[first] + EQUAL * size < values[first + 1] {
+            values.swap(first, first + 1);
+            axes *= turn((first + 2) % 3, std::f64::consts::FRAC_PI_2);
+        }
+    }
+    (values, axes)
+}
+
+fn turn(about: usize, angle: f64) -> UnitQuaternion<f64> {
+    let axes = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
+    UnitQuaternion::from_axis_angle(&axes[about], angle)
 }

@@ -4,26 +4,21 @@ use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
-
-use super::super::fault::Unreachable;
-use super::super::features::{self, Tally};
-use super::super::mesh_mass::{Mode, measure};
-use super::super::model::{Geometry, Inertial};
-use super::super::place::Place;
-use super::super::refusal::{Fallible, Refusal, at};
-use super::assets::{Assets, Folder};
-use super::defaults::{Defaults, MAIN};
-use super::element::Element;
-use super::fault::MjcfFault;
-use super::msh;
-use super::orientation::quaternion;
-use super::reading::{Attributes, View, list, wrong};
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::read::{Part, Scene};
 use urdd_geometry::write::stl;
-use urdd_source::sniff::{is_plain_mesh, lines};
 use urdd_source::{FoundMesh, Inspected, inspect_alone};
+use urdd_source::{is_plain_mesh, lines};
+
+use super::assets::{Assets, Folder, read_msh};
+use super::compiler::quaternion;
+use super::reading::{Attributes, Defaults, Element, MAIN, View, list, wrong};
+use crate::fault::{MjcfFault, Unreachable};
+use crate::features::{self, Tally};
+use crate::mass::{Mode, measure};
+use crate::model::{Geometry, Inertial};
+use crate::place::{Fallible, Place, Refusal, at};
 
 /// The meshes of a model. A file is read when a shape needs it.
 pub struct Meshes<'d> {
@@ -42,7 +37,6 @@ struct MeshAsset<'d> {
     mode: Mode,
 }
 
-/// A mesh file.
 struct Content {
     /// What tells it from other files.
     key: String,
@@ -54,7 +48,6 @@ struct Content {
     triangles: Triangles,
 }
 
-/// The triangles of a mesh file.
 enum Triangles {
     /// They are in a file that was made of them: of another format, or of a text.
     Written(Mesh),
@@ -84,7 +77,6 @@ impl Content {
 }
 
 impl<'d> Meshes<'d> {
-    /// The meshes that a model defines.
     pub fn of(root: &'d Element, defaults: &'d Defaults<'d>) -> Fallible<Self> {
         let mut by_name = HashMap::new();
         for element in root.sections("asset").filter(|element| element.tag == "mesh") {
@@ -117,7 +109,6 @@ impl<'d> Meshes<'d> {
         found.ok_or_else(|| at(place, MjcfFault::UnknownMesh(name.to_owned())))
     }
 
-    /// The material that a mesh names.
     pub fn material(&self, name: &str) -> Option<&'d str> {
         self.by_name.get(name).and_then(|asset| asset.view.text("material"))
     }
@@ -182,8 +173,8 @@ impl<'d> Meshes<'d> {
             Err(reason) => {
                 let file = asset.file.unwrap_or(name).to_owned();
                 let why = Unreachable::NotMesh { file, reason: reason.clone() };
-                tally.count(features::MISSING_MESHES);
-                tally.remark(asset.view.element.place, format!("{why}; it is left out"));
+                let text = format!("{why}; it is left out");
+                tally.say(features::MISSING_MESHES, asset.view.element.place, text);
                 return Ok(None);
             }
         };
@@ -264,7 +255,7 @@ impl MeshAsset<'_> {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let file = format!("meshes/{stem}");
         if extension == "msh" {
-            let mesh = msh::read(&bytes).map_err(|problem| broken(name, place, problem))?;
+            let mesh = read_msh(&bytes).map_err(|problem| broken(name, place, problem))?;
             assets.charge(mesh.vertices.len() * VERTEX, place)?;
             return Content::made(mesh, name, (key, file), place);
         }

@@ -1,60 +1,43 @@
 //! Reads MJCF, as MuJoCo's compiler does.
 
-mod actuator;
 mod assets;
-mod attach;
 mod body;
-mod closing;
 mod compiler;
 mod contact;
-mod defaults;
 mod document;
 mod drive;
-mod element;
 mod equality;
-pub mod fault;
-mod fit;
 mod geom;
 mod inertia;
 mod joint;
-mod keyframe;
-mod lookup;
-mod material;
 mod mesh;
-mod moved;
-mod msh;
-mod orientation;
-mod principal;
 mod reading;
-mod refused;
 mod robot;
 mod said;
 mod scene;
-mod seen;
 
-pub use actuator::Actuator;
-pub use compiler::Compiler;
-pub use drive::{Driven, give_all};
-pub use element::Element;
-
-use super::features::Tally;
-use super::model::Model;
-use super::place::TextFile;
-use super::refusal::{Fallible, Placed, placed};
-use assets::Assets;
-use compiler::Compilers;
-use contact::Contacts;
-use defaults::Defaults;
-use document::Whole;
-use lookup::Lookup;
-use material::Materials;
-use mesh::Meshes;
-use robot::Maker;
-use seen::Seen;
 use urdd_source::ImportOptions;
 use urdd_source::gate::Gate;
 
-/// Reads the robot of a description.
+use crate::features::Tally;
+use crate::model::Model;
+use crate::place::{Fallible, Placed, TextFile, placed};
+use assets::Assets;
+use body::Lookup;
+use compiler::Compilers;
+use contact::Contacts;
+use document::Whole;
+use geom::Materials;
+use mesh::Meshes;
+use reading::Defaults;
+use robot::Maker;
+use scene::Seen;
+
+pub use compiler::Compiler;
+pub use drive::{Driven, give_all};
+pub use joint::Actuator;
+pub use reading::Element;
+
 pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Model, Placed> {
     let Whole { files, models, root } = document::read(file, gate);
     match root.and_then(|root| model(&root, &files, models, gate, options)) {
@@ -91,11 +74,11 @@ fn model(
         account,
     };
     let mut made = maker.make()?;
-    refused::say(root, &bodies.all, &made, &maker.assets, maker.tally);
+    said::say_refused(root, &bodies.all, &made, &maker.assets, maker.tally);
     let (assets, all) = (maker.assets.all, &bodies.all);
     equality::equalities(root, &defaults, all, &lookup, &mut made, &mut tally, account)?;
     drive::drive(root, &defaults, &compilers, &lookup, &mut made, &mut tally)?;
-    let configurations = keyframe::configurations(root, &bodies, &made, &mut tally, account)?;
+    let configurations = robot::configurations(root, &bodies, &made, &mut tally, account)?;
     let pairs = contacts.pairs(all, &made, &mut tally, account)?;
     let friction = contact::friction(all, &made, &mut tally);
     Ok(Model {

@@ -1,29 +1,28 @@
-//! The robot of a model, as the writers of imports want it.
+//! The robot of a model, as the writers of imports want it: its bodies, and keyframes as named configurations.
 
 use std::collections::HashMap;
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Quaternion};
+use urdd_directory::account::{Account, Charged};
+use urdd_kinematics::rotation::to_rotation_vector;
 
-use super::super::features::{self, Tally};
-use super::super::model::{Body, Geometry, Inertial, Joint, JointKind, Shape, Use};
-use super::super::names::Names;
-use super::super::place::Place;
-use super::super::refusal::{Fallible, Placing, at};
 use super::assets::Assets;
 use super::body::{Bodies, Made, RawBody, WORLD};
-use super::compiler::Compilers;
+use super::compiler::{Compilers, unit};
 use super::contact::Contacts;
-use super::fault::MjcfFault;
-use super::fit::{Fitted, fitted};
-use super::geom::{Geom, GeomKind};
-use super::inertia::inertial;
-use super::material::Materials;
+use super::geom::{Geom, GeomKind, Materials};
+use super::inertia::{Fitted, fitted, inertial};
 use super::mesh::Meshes;
-use super::scene::Robot;
-use super::seen::{Part, Seen};
-use urdd_directory::account::{Account, Charged};
+use super::reading::{Element, list};
+use super::scene::{Part, Robot, Seen};
+use crate::fault::MjcfFault;
+use crate::features::{self, Tally};
+use crate::model::{
+    Body, Configuration, Geometry, Inertial, Joint, JointKind, JointValue, Shape, Use,
+};
+use crate::place::{Fallible, Place, Placing, at};
+use crate::tree::Names;
 
-/// What is needed to make bodies.
 pub struct Maker<'m, 'd> {
     pub bodies: &'m Bodies<'d>,
     pub robot: &'m Robot,
@@ -171,9 +170,7 @@ impl<'d> Maker<'_, 'd> {
             .map(|((place, geom), fitted)| (geom, fitted, is_visual((place, geom))))
             .filter(|(.., is_visual)| !(*is_visual && discards))
             .collect();
-        for _ in parts.len()..geoms.len() {
-            self.tally.count(features::DISCARDED);
-        }
+        self.tally.add(features::DISCARDED, geoms.len() - parts.len());
         let seen = self.seen.of_body(&parts, &mut self.meshes, &self.assets)?;
         for ((geom, fitted, is_visual), is_seen) in parts.into_iter().zip(seen) {
             let is_seen = is_seen && !self.materials.is_clear(geom, &self.meshes)?;
@@ -245,5 +242,93 @@ impl<'d> Maker<'_, 'd> {
             }
         }
         Ok(())
+    }
+}
+
+/// What passing a joint of the model costs.
+const JOINT: usize = 10;
+
+pub fn configurations(
+    root: &Element,
+    bodies: &Bodies<'_>,
+    made: &Made,
+    tally: &mut Tally,
+    account: &Account,
+) -> Fallible<Charged<Configuration>> {
+    let joints = || {
+        let each = bodies.all.iter().enumerate();
+        each.flat_map(|(body, raw)| {
+            raw.joints.iter().enumerate().map(move |(at, joint)| ((body, at), joint))
+        })
+    };
+    let expected: usize = joints().map(|(_, joint)| positions(joint)).sum();
+    let (mut configurations, mut names) = (Charged::default(), Names::new(account));
+    for (number, key) in root.sections("keyframe").filter(|of| of.tag == "key").enumerate() {
+        for name in ["qvel", "act", "ctrl"] {
+            if key.text(name).is_some() {
+                tally.count(features::CONTROLS);
+            }
+        }
+        if bodies.is_partial {
+            let text = "the key is left out: it also has positions of what is not read";
+            tally.say(features::SOFT, key.place, text);
+            continue;
+        }
+        let numbers = list(key, "qpos", usize::MAX)?;
+        if numbers.len() > expected {
+            let fault = MjcfFault::Qpos { found: numbers.len(), expected };
+            return Err(at(key.place, fault));
+        }
+        account.charge(JOINT * joints().count()).at(key.place)?;
+        let (mut values, mut base) = (Charged::default(), None);
+        let mut rest = &numbers[..];
+        for (place, joint) in joints() {
+            let (own, after) = rest.split_at(positions(joint).min(rest.len()));
+            rest = after;
+            if joint.kind == JointKind::Floating && bodies.all[place.0].parent.is_some() {
+                let is_root = made.index.get(&place.0) == Some(&0);
+                if let (true, [x, y, z, turn @ ..]) = (is_root, own)
+                    && let [w, i, j, k] = turn
+                {
+                    tally.count(features::BASE_POSES);
+                    let q = unit(Quaternion::new(*w, *i, *j, *k));
+                    base = Some([*x, *y, *z, q.w, q.i, q.j, q.k]);
+                }
+                continue;
+            }
+            let Some(&(body, at)) = made.joints.get(&place) else { continue };
+            // What a short key does not say is as in the model.
+            let whole = [own, start(joint).get(own.len()..).unwrap_or_default()].concat();
+            let own = match whole[..] {
+                [w, x, y, z] => to_rotation_vector(&unit(Quaternion::new(w, x, y, z))).to_vec(),
+                _ => whole,
+            };
+            let name = made.bodies[body].joints[at].name.clone();
+            let value = JointValue { joint: (body, at), name, values: own };
+            values.push(value, account).at(key.place)?;
+        }
+        tally.count(features::POSES);
+        let name = key.text("name").map_or_else(|| format!("key_{number}"), str::to_owned);
+        let name = names.free(&name).at(key.place)?;
+        configurations.push(Configuration { name, values, base }, account).at(key.place)?;
+    }
+    Ok(configurations)
+}
+
+/// How many numbers of a configuration a joint has.
+fn positions(joint: &Joint) -> usize {
+    match joint.kind {
+        JointKind::Floating => 7,
+        JointKind::Ball => 4,
+        _ => 1,
+    }
+}
+
+/// The numbers that it has in the model's own configuration. A free joint's are its body's.
+fn start(joint: &Joint) -> Vec<f64> {
+    match joint.kind {
+        JointKind::Floating => Vec::new(),
+        JointKind::Ball => vec![1.0, 0.0, 0.0, 0.0],
+        _ => vec![joint.reference],
     }
 }

@@ -2,13 +2,12 @@
 
 use nalgebra::Vector3;
 
-use super::super::features;
-use super::super::refusal::{Fallible, at};
-use super::fault::SdfFault;
-use super::kept::keep;
-use super::reader::SdfReader;
+use super::reader::{SdfReader, keep};
 use super::scene::{Axis, Joint, Mimic, Node, NodeKind, SdfJointKind, WORLD};
 use super::tag::{Tag, is_true};
+use crate::fault::SdfFault;
+use crate::features;
+use crate::place::{Fallible, at};
 
 /// From this number on, a limit is none.
 const NO_LIMIT: f64 = 1e16;
@@ -27,7 +26,6 @@ const KNOWN: &[&str] = &[
     "gearbox_reference_body",
 ];
 
-/// Reads a joint into a scope.
 pub fn joint(reader: &mut SdfReader, tag: Tag, scope: usize) -> Fallible<()> {
     let name = tag.own_name()?;
     let (node, joint) = read(reader, tag, scope)?;
@@ -122,8 +120,8 @@ fn said_of_axis(reader: &mut SdfReader, axis: Tag, joint: &str) {
     if let Some(dynamics) = axis.child("dynamics") {
         let spring = dynamics.number("spring_stiffness");
         if spring.ok().flatten().is_some_and(|stiffness| stiffness != 0.0) {
-            tally.count(features::SPRINGS);
-            tally.remark(axis.place(), format!("the spring of joint `{joint}` is lost"));
+            let text = format!("the spring of joint `{joint}` is lost");
+            tally.say(features::SPRINGS, axis.place(), text);
         }
     }
     for stop in ["stiffness", "dissipation"] {

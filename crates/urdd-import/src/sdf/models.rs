@@ -1,21 +1,22 @@
 //! Reads models: their frames, what is nested in them, and what they include.
 
 use nalgebra::Isometry3;
+use urdd_directory::limits::MAX_MANIFEST_BYTES;
+use urdd_source::{FoundMesh, NotFound};
+use urdd_xml::{Mended, parse_leniently};
 
-use super::super::features;
-use super::super::price::{ENTRY, LETTER};
-use super::super::refusal::{Fallible, Placing, at};
-use super::fault::SdfFault;
-use super::included::{Included, Overrides, included};
+use super::assets::LOOKED_AT;
 use super::joint_reader::joint;
-use super::kept::{keep, keep_plugins};
 use super::libsdformat::say_refusals;
 use super::link_reader::link;
-use super::reader::SdfReader;
+use super::reader::{SdfReader, keep, keep_plugins};
 use super::scene::{Node, NodeKind, Scope};
-use super::tag::Tag;
+use super::tag::{Tag, is_true};
+use crate::fault::{SdfFault, Unreachable};
+use crate::features;
+use crate::model::{ENTRY, LETTER};
+use crate::place::{Fallible, Placing, at};
 
-/// How deep models may be nested.
 const MAX_DEPTH: usize = 64;
 
 /// The elements of a model that are read here.
@@ -53,16 +54,7 @@ pub fn model(
                 model(reader, child, Some(scope), &Overrides::default(), depth + 1)?;
             }
             "include" => {
-                let Included { file, overrides } = included(reader, child)?;
-                reader.include(&file, child.place(), |reader, root| {
-                    say_refusals(root, &mut reader.tally);
-                    let Some(inside) = root.child("model") else {
-                        let file = file.file.display().to_string();
-                        return Err(at(child.place(), SdfFault::IncludesNone(file)));
-                    };
-                    model(reader, inside, Some(scope), &overrides, depth + 1)
-                })?;
-                keep_plugins(reader, child)?;
+                include(reader, child, Some(scope), depth + 1)?;
             }
             "plugin" | "gripper" => keep(reader, child, None)?,
             name if SETTINGS.contains(&name) && parent.is_none() => {
@@ -157,4 +149,130 @@ fn frame(reader: &mut SdfReader, tag: Tag, scope: usize) -> Fallible<()> {
         true => Ok(()),
         false => Err(at(tag.place(), SdfFault::Twice { kind: "frame", name })),
     }
+}
+
+/// The files that say which file of a folder is the model.
+const MANIFESTS: &[&str] = &["model.config", "manifest.xml"];
+const OF_INCLUDE: &[&str] = &["uri", "name", "pose", "placement_frame", "static", "plugin"];
+
+/// What an `<include>` says of the model that it includes.
+#[derive(Debug, Default, Clone)]
+pub struct Overrides {
+    pub name: Option<String>,
+    pub pose: Option<(Isometry3<f64>, Option<String>)>,
+    pub placement: Option<String>,
+    pub is_static: Option<bool>,
+    /// Its elements take part in the scope around it.
+    pub is_merged: bool,
+}
+
+/// Reads the model that an `<include>` names, as [`model`] does. Gives its name, too.
+pub fn include(
+    reader: &mut SdfReader,
+    tag: Tag,
+    parent: Option<usize>,
+    depth: usize,
+) -> Fallible<(String, bool)> {
+    let (file, overrides) = included(reader, tag)?;
+    let read = reader.include(&file, tag.place(), |reader, root| {
+        say_refusals(root, &mut reader.tally);
+        let Some(inside) = root.child("model") else {
+            let file = file.file.display().to_string();
+            return Err(at(tag.place(), SdfFault::IncludesNone(file)));
+        };
+        let name = overrides.name.as_deref().or(inside.attribute("name")).unwrap_or_default();
+        Ok((name.to_owned(), model(reader, inside, parent, &overrides, depth)?))
+    })?;
+    keep_plugins(reader, tag)?;
+    Ok(read)
+}
+
+/// Finds the file that an `<include>` names.
+///
+/// # Errors
+/// If there is none, or what it says is not read.
+fn included(reader: &mut SdfReader, tag: Tag) -> Fallible<(FoundMesh, Overrides)> {
+    let Some(uri) = tag.words("uri") else {
+        return tag.lacks("uri");
+    };
+    if tag.child("experimental:params").is_some() {
+        return Err(at(tag.place(), SdfFault::Params));
+    }
+    tag.unread(OF_INCLUDE, &mut reader.tally);
+    let pose = tag.child("pose").map(|_| tag.pose()).transpose()?;
+    reader.tally.count(features::INCLUDES);
+    let overrides = Overrides {
+        name: tag.words("name"),
+        pose,
+        placement: tag.words("placement_frame"),
+        is_static: tag.words("static").map(|text| is_true(&text)),
+        is_merged: tag.says("merge"),
+    };
+    Ok((find(reader, tag, &uri)?, overrides))
+}
+
+/// The file of a URI: itself, or the model of the folder that it names. libsdformat looks for what is behind any scheme,
+/// or without one, where it looks for models.
+///
+/// # Errors
+/// If there is none, or it may not be read.
+pub fn find(reader: &SdfReader, tag: Tag, uri: &str) -> Fallible<FoundMesh> {
+    let missing = match find_as(reader, tag, uri)? {
+        Ok(found) => return Ok(found),
+        Err(missing) => missing,
+    };
+    if missing.outside.is_some() {
+        return Err(at(tag.place(), Unreachable::of(uri, missing)));
+    }
+    let bare = uri.split_once("://").map_or(uri, |(_, rest)| rest).trim_start_matches("./");
+    let model = format!("model://{bare}");
+    if !bare.starts_with('/')
+        && model != uri
+        && let Ok(found) = find_as(reader, tag, &model)?
+    {
+        return Ok(found);
+    }
+    let (uri, why) = (uri.to_owned(), missing.in_words());
+    Err(at(tag.place(), SdfFault::NoInclude { uri, why }))
+}
+
+/// The file of a name as it is written.
+fn find_as(reader: &SdfReader, tag: Tag, uri: &str) -> Fallible<Result<FoundMesh, NotFound>> {
+    let folder = reader.folder(tag.file);
+    reader.charge(LOOKED_AT * (uri.len() + folder.as_os_str().len()), tag.place())?;
+    let gate = reader.gate;
+    // A folder is not a file, but may have a manifest.
+    let missing = match gate.find_from(uri, &folder) {
+        Ok(found) => return Ok(Ok(found)),
+        Err(missing) => missing,
+    };
+    let trimmed = uri.trim_end_matches('/');
+    for manifest in MANIFESTS {
+        let Ok(manifest) = gate.find_from(&format!("{trimmed}/{manifest}"), &folder) else {
+            continue;
+        };
+        let Ok(bytes) = gate.bytes(&manifest, MAX_MANIFEST_BYTES) else { continue };
+        reader.charge(bytes.len(), tag.place())?;
+        let text = String::from_utf8_lossy(&bytes);
+        if let Some((model, folder)) = newest(&text).zip(manifest.file.parent()) {
+            let path = folder.join(model);
+            let shown = path.display().to_string();
+            let found = gate.at(&path).map_err(|why| Unreachable::of(&shown, why));
+            return found.map(Ok).at(tag.place());
+        }
+    }
+    Ok(Err(missing))
+}
+
+/// The file of the newest version that a manifest names.
+fn newest(text: &str) -> Option<String> {
+    let mended = Mended::default();
+    let document = parse_leniently(text, "model", &mended).ok()?;
+    let files = document.root_element().children().filter(|child| child.has_tag_name("sdf"));
+    let files = files.filter_map(|file| {
+        let version = file.attribute("version").unwrap_or_default().trim();
+        let minor: u32 = version.strip_prefix("1.").and_then(|minor| minor.parse().ok())?;
+        Some((minor, file.text()?.trim().to_owned()))
+    });
+    files.max_by_key(|(minor, _)| *minor).map(|(_, file)| file)
 }

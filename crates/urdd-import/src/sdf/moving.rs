@@ -1,15 +1,31 @@
-//! Joints of an SDF as joints of a body.
+//! Joints of an SDF as joints of a body, as what closes a chain, and gearboxes as equations between the joints on the way from
+//! a link to two others.
+//!
+//! Facts: SDFormat's `joint.sdf` and `gearbox.cpp` of Gazebo's ODE. Seen from the reference body, the child has turned about
+//! the second axis by minus the ratio times the angle that the parent has turned about the first, from the pose of the file.
+
+use std::collections::BTreeMap;
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use urdd_format::loops::LoopKind;
+use urdd_format::short::Short;
+use urdd_kinematics::rotation::from_z;
 
-use super::super::features::{self, Tally};
-use super::super::limits::limits;
-use super::super::model::{Joint as Moving, JointKind, Mimic};
-use super::super::place::Place;
-use super::super::refusal::{Fallible, at};
-use super::fault::SdfFault;
-use super::poses::Frames;
-use super::scene::{Axis, Joint, NodeKind, Scene, SdfJointKind};
+use super::libsdformat::REFUSED;
+use super::scene::{Axis, Frames, Joint, NodeKind, Scene, SdfJointKind, WORLD};
+use crate::fault::SdfFault;
+use crate::features::{self, Tally};
+use crate::graph::{limits, say_closed};
+use crate::model::{Body, Closing, Coupled, End, Joint as Moving, JointKind, Mimic};
+use crate::place::{Fallible, at};
+
+/// A joint and its links; the number of links means the world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Outside {
+    pub joint: usize,
+    pub parent: usize,
+    pub child: usize,
+}
 
 /// The joints of a body by which a joint moves it. `body` is the node of the body's link; none of the world.
 pub fn moving(
@@ -142,11 +158,192 @@ pub fn needs_links(moves: &[Moving]) -> bool {
 /// A joint that was turned round is said.
 pub fn say_turned(scene: &Scene, joint: &Joint, tally: &mut Tally) {
     let node = &scene.nodes[joint.node];
-    let place: Place = node.place;
-    tally.count(features::TURNED);
     let words = match joint.kind {
         SdfJointKind::Ball => "the values of this ball are those of the opposite rotation",
         _ => "its values keep their meaning",
     };
-    tally.remark(place, format!("joint `{}` leads to its parent here: {words}", node.name));
+    let text = format!("joint `{}` leads to its parent here: {words}", node.name);
+    tally.say(features::TURNED, node.place, text);
+}
+
+/// The axes of a universal joint are at a right angle within this.
+const RIGHT: f64 = 1e-9;
+
+/// What holds two bodies together. `at` has the body of each link, and of the world behind them. `None`, with a remark, where
+/// it is of a kind that no loop has.
+pub fn closing(
+    scene: &Scene,
+    frames: &Frames,
+    outside: Outside,
+    at: &[Option<usize>],
+    tally: &mut Tally,
+) -> Fallible<Option<Closing>> {
+    let Outside { joint, parent, child } = outside;
+    let joint = &scene.joints[joint];
+    let node = &scene.nodes[joint.node];
+    let [of_parent, of_child] = [parent, child].map(|link| {
+        scene.links.get(link).map_or(WORLD, |link| scene.nodes[link.node].name.as_str())
+    });
+    if parent == child {
+        let text = format!("{REFUSED}joint `{}` has `{of_child}` at both ends", node.name);
+        tally.remark(node.place, text);
+    }
+    let mut axes = Vec::new();
+    for axis in &joint.axes {
+        axes.push(direction(scene, frames, joint.node, axis)?);
+    }
+    let kind = match (joint.kind, &axes[..]) {
+        (SdfJointKind::Fixed, _) => Some(LoopKind::Fixed),
+        (SdfJointKind::Hinge | SdfJointKind::Continuous, [_]) => Some(LoopKind::Revolute),
+        (SdfJointKind::Slide, [_]) => Some(LoopKind::Prismatic),
+        (SdfJointKind::Ball, _) => Some(LoopKind::Spherical),
+        (SdfJointKind::Two, [a, b]) => {
+            (a.normalize().dot(&b.normalize()).abs() <= RIGHT).then_some(LoopKind::Universal)
+        }
+        _ => None,
+    };
+    let bodies = at.get(parent).copied().flatten().zip(at.get(child).copied().flatten());
+    let Some((kind, (a, b))) = kind.zip(bodies).filter(|(_, (a, b))| a != b) else {
+        let text = format!(
+            "the joint `{}` between `{of_parent}` and `{of_child}` is left out: it closes a chain",
+            node.name
+        );
+        tally.say(features::OPEN, node.place, text);
+        return Ok(None);
+    };
+    let ranges = joint.axes.iter().map(|axis| axis.range);
+    say_closed(ranges, (&node.name, node.place), tally);
+    let end = |link: usize, body: usize, axis: Option<&Vector3<f64>>| {
+        let frame = match scene.links.get(link) {
+            Some(link) => frames.relative(joint.node, link.node),
+            None => frames.poses[joint.node],
+        };
+        let frame = axis.map_or(frame, |axis| frame * from_z(axis));
+        End { body, frame }
+    };
+    let ends = [end(parent, a, axes.first()), end(child, b, axes.last())];
+    Ok(Some(Closing { name: Some(node.name.clone()), kind, ends, place: node.place }))
+}
+
+/// Axes are parallel within this.
+const PARALLEL: f64 = 1e-9;
+/// Bodies between two links; what has more is left out.
+const LONGEST: usize = 1000;
+
+/// The equation of a gearbox. `at` has the body of each link, and of the world behind them; `poses` are those of the bodies.
+/// `None`, with a remark, where joints turn about other axes.
+pub fn gearbox(
+    scene: &Scene,
+    frames: &Frames,
+    outside: Outside,
+    at: &[Option<usize>],
+    (bodies, poses): (&[Body], &[Isometry3<f64>]),
+    tally: &mut Tally,
+) -> Fallible<Option<Coupled>> {
+    let joint = &scene.joints[outside.joint];
+    let node = &scene.nodes[joint.node];
+    let SdfJointKind::Gearbox(ratio) = joint.kind else { return Ok(None) };
+    let mut axes = Vec::new();
+    for axis in &joint.axes {
+        let direction = direction(scene, frames, joint.node, axis)?;
+        axes.push(frames.poses[joint.node].rotation * direction);
+    }
+    let body = |link: usize| at.get(link).copied().flatten();
+    let mut lost = |why: &str| {
+        let text =
+            format!("the gearbox `{}` is lost, and its joints turn on their own: {why}", node.name);
+        tally.say(features::LOST_GEARBOXES, node.place, text);
+        Ok(None)
+    };
+    if outside.parent == outside.child {
+        return lost("it has the same link at both ends");
+    }
+    let named = joint.reference.as_deref().unwrap_or(WORLD);
+    let reference = match named {
+        WORLD => body(scene.links.len()),
+        name => {
+            let found = scene.find(node.scope, name);
+            found.and_then(|node| frames.links[node]).and_then(body)
+        }
+    };
+    if reference.is_none() {
+        let named = Short::of(named);
+        return lost(&format!("there is no link `{named}`, its reference body, in the robot"));
+    }
+    let sum = || {
+        let (reference, parent, child) = (reference?, body(outside.parent)?, body(outside.child)?);
+        let mut terms = BTreeMap::new();
+        let (first, second) = (axes.first()?, axes.last()?);
+        turned(bodies, poses, [reference, parent], first, ratio, &mut terms)?;
+        turned(bodies, poses, [reference, child], second, 1.0, &mut terms)?;
+        terms.retain(|_, factor| *factor != 0.0);
+        let terms: Vec<_> =
+            terms.into_iter().map(|(name, of)| (name.to_owned(), vec![of])).collect();
+        (!terms.is_empty()).then_some(terms)
+    };
+    let Some(terms) = sum() else {
+        return lost(
+            "between its links and the reference body there is nothing that turns about its axes alone",
+        );
+    };
+    if joint.reference.is_none() {
+        let text = format!(
+            "the gearbox `{}` names no `gearbox_reference_body`: the world is taken",
+            node.name
+        );
+        tally.remark(node.place, text);
+    }
+    if ratio == 0.0 {
+        let text = format!(
+            "the `gearbox_ratio` of `{}` is 0: its child does not turn, seen from the reference body",
+            node.name
+        );
+        tally.remark(node.place, text);
+    }
+    tally.count(features::GEARBOXES);
+    Ok(Some(Coupled { name: Some(node.name.clone()), constant: 0.0, terms }))
+}
+
+/// Adds the angle by which a body has turned about an axis, seen from another, times a factor. `None` if something between
+/// the two turns about another axis.
+fn turned<'b>(
+    bodies: &'b [Body],
+    poses: &[Isometry3<f64>],
+    [from, to]: [usize; 2],
+    axis: &Vector3<f64>,
+    factor: f64,
+    terms: &mut BTreeMap<&'b str, f64>,
+) -> Option<()> {
+    let axis = axis.try_normalize(0.0)?;
+    let (mut from, mut to) = (from, to);
+    let mut steps = 0;
+    // A parent is before its children.
+    while from != to {
+        steps += 1;
+        if steps > LONGEST {
+            return None;
+        }
+        let (body, sign) = if to > from { (to, factor) } else { (from, -factor) };
+        for joint in &*bodies[body].joints {
+            let own = poses[body].rotation * joint.frame.rotation * joint.axis;
+            match joint.kind {
+                JointKind::Slide => {}
+                JointKind::Ball | JointKind::Planar | JointKind::Floating => return None,
+                JointKind::Hinge => {
+                    let along = own.try_normalize(0.0)?.dot(&axis);
+                    if along.abs() < 1.0 - PARALLEL {
+                        return None;
+                    }
+                    *terms.entry(joint.name.as_str()).or_default() += sign * along.signum();
+                }
+            }
+        }
+        let parent = bodies[body].parent?;
+        if to > from {
+            to = parent
+        } else {
+            from = parent
+        };
+    }
+    Some(())
 }

@@ -3,20 +3,16 @@
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use urdd_xml::{Mended, Node, element};
 
-use super::super::fault::ImportFault;
-use super::super::features::Tally;
-use super::super::place::Place;
-use super::super::refusal::{Fallible, at};
-use super::fault::SdfFault;
+use crate::fault::{ImportFault, SdfFault};
+use crate::features::Tally;
+use crate::place::{Fallible, Place, at};
 
 /// The last minor version in which `relative_to` may be called `frame`.
 const RENAMED: u32 = 6;
 
-/// An element of a file.
 #[derive(Clone, Copy)]
 pub struct Tag<'a> {
     pub node: Node<'a, 'a>,
-    /// The index of the file.
     pub file: usize,
     /// What was made of its text.
     pub mended: &'a Mended,
@@ -45,7 +41,6 @@ impl<'a> Tag<'a> {
         self.attribute(attribute).is_some_and(is_true)
     }
 
-    /// Its name, as it gives it.
     pub fn own_name(self) -> Fallible<String> {
         match self.attribute("name") {
             Some(name) => Ok(name.to_owned()),
@@ -78,7 +73,6 @@ impl<'a> Tag<'a> {
         self.child(child).map(Tag::text).filter(|text| !text.is_empty())
     }
 
-    /// Refuses a value.
     pub fn refuse<T>(self, value: &str, wanted: &'static str) -> Fallible<T> {
         let (element, value) = (self.name().to_owned(), value.to_owned());
         let attribute = "text".to_owned();

@@ -6,14 +6,12 @@ use nalgebra::{
     Isometry3, Matrix3, Point3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3,
 };
 use serde_json::Value;
+use urdd_source::gate::Gate;
+use urdd_source::{ImportOptions, Settings};
 
 use crate::mjcf;
 use crate::model::{Body, Geometry, Joint, JointKind, Model, Shape, Use};
-use crate::place::TextFile;
-use crate::refusal::Placed;
-use urdd_source::ImportOptions;
-use urdd_source::Settings;
-use urdd_source::gate::Gate;
+use crate::place::{Placed, TextFile};
 
 const NEAR: f64 = 1e-9;
 /// MuJoCo keeps vertices in 32 bits.

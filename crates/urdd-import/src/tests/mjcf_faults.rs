@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::mjcf::of_text;
 use crate::model::Model;
-use crate::refusal::Placed;
+use crate::place::Placed;
 
 fn read(text: &str) -> Result<Model, Placed> {
     of_text(Path::new("/nowhere/m.xml"), text.to_owned(), None)

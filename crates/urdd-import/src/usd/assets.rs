@@ -1,21 +1,23 @@
-//! The files that the URDF names: meshes, which are written, and images, which are there or in packages.
+//! The files of a USD, by the gate, and those that the URDF names: meshes, which are written, and images, which are there or in
+//! packages.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::path::Path;
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 use urdd_directory::account::Charged;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::path::file_name;
 use urdd_source::gate::Gate;
-use urdd_source::sniff::is_image;
+use urdd_source::is_image;
+use urdd_usd::Door;
 
-use super::super::features::{self, Tally};
-use super::super::model::Asset;
-use super::super::place::Place;
-use super::super::refusal::{Fallible, Placing};
-use super::door::GateDoor;
+use crate::fault::Unreachable;
+use crate::features::{self, Tally};
+use crate::model::Asset;
+use crate::place::{Fallible, Place, Placing, TextFile};
 
-/// The files.
 pub struct Assets<'g> {
     pub gate: &'g Gate,
     door: GateDoor<'g>,
@@ -77,8 +79,8 @@ impl<'g> Assets<'g> {
             other => {
                 self.gate.account().charge(other.as_ref().map_or(0, |of| of.len())).at(place)?;
                 let why = other.err().unwrap_or_else(|| format!("`{path}` is not an image"));
-                tally.count(features::MISSING_MESHES);
-                tally.remark(place, format!("an image is left out: {why}"));
+                let text = format!("an image is left out: {why}");
+                tally.say(features::MISSING_MESHES, place, text);
                 None
             }
         };
@@ -104,5 +106,43 @@ impl<'g> Assets<'g> {
         }
         self.all.push(Asset { path, bytes }, self.gate.account()).at(place)?;
         Ok(self.all.len() - 1)
+    }
+}
+
+/// Reads layers by the gate of a description.
+pub struct GateDoor<'g> {
+    pub gate: &'g Gate,
+    /// What was read, by the path that layers have.
+    pub files: BTreeMap<String, TextFile>,
+}
+
+impl Door for GateDoor<'_> {
+    fn read(&mut self, path: &str) -> Result<Arc<[u8]>, String> {
+        if let Some(known) = self.files.get(path) {
+            return Ok(Arc::clone(&known.bytes));
+        }
+        let found = match Path::new(path).is_absolute() {
+            true => self.gate.at(Path::new(path)),
+            false => self.gate.find(path),
+        };
+        let found = found.map_err(|why| Unreachable::of(path, why).to_string())?;
+        let bytes = self.gate.bytes(&found, MAX_DOCUMENT_BYTES).map_err(|why| why.to_string())?;
+        let bytes: Arc<[u8]> = bytes.into();
+        let shown = found.file.display().to_string();
+        let file = TextFile::any(shown, found.file, Arc::clone(&bytes));
+        self.files.insert(path.to_owned(), file);
+        Ok(bytes)
+    }
+
+    fn charge(&mut self, bytes: usize) -> Result<(), String> {
+        self.gate.account().charge(bytes).map_err(|why| why.to_string())
+    }
+}
+
+impl GateDoor<'_> {
+    /// The file of a layer, which may be in a package.
+    pub fn file(&self, layer: &str) -> Option<&TextFile> {
+        let path = layer.split_once('[').map_or(layer, |(package, _)| package);
+        self.files.get(path)
     }
 }

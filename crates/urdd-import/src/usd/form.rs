@@ -1,15 +1,20 @@
-//! What the shapes of USD are in a model: primitives, and meshes where these are stretched.
+//! What the shapes of USD are in a model: primitives, meshes as triangles, and how they look.
 
-use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+use std::collections::HashMap;
+
+use nalgebra::{
+    Isometry3, Matrix2, Matrix2x3, Matrix3, Rotation2, Translation3, UnitQuaternion, Vector2,
+    Vector3,
+};
 use urdd_geometry::mesh::Bounds;
 use urdd_geometry::{Mesh, primitives};
 use urdd_kinematics::rotation::from_z;
-use urdd_usd::Prim;
+use urdd_usd::{Prim, Property, Value};
 
-use super::super::cone::cone;
-use super::super::features::{self, Tally};
-use super::super::model::Geometry;
-use super::scene::{number, word};
+use super::scene::{Scene, number, word};
+use crate::features::{self, Tally};
+use crate::graph::cone;
+use crate::model::{Geometry, Material};
 
 /// Two scales that differ by less are one: those of single precision.
 const NEAR: f64 = 1e-5;
@@ -25,6 +30,8 @@ pub enum Form {
 /// A shape that is not a mesh, stretched.
 pub fn form(of: &Prim, stretch: &Matrix3<f64>, tally: &mut Tally) -> Form {
     let value = |name: &str, none: f64| number(of, name).unwrap_or(none);
+    let radius_name = if of.type_name.ends_with('1') { "radiusTop" } else { "radius" };
+    let radius = |none: f64| value(radius_name, none);
     let is_straight = stretch.clone_owned() == Matrix3::from_diagonal(&stretch.diagonal());
     let scale = stretch.diagonal().abs();
     let axis = match word(of, "axis") {
@@ -53,7 +60,7 @@ pub fn form(of: &Prim, stretch: &Matrix3<f64>, tally: &mut Tally) -> Form {
             }
         }
         "Sphere" => {
-            let radius = value("radius", 1.0);
+            let radius = radius(1.0);
             tally.count(if is_even { features::BOXES } else { features::ELLIPSOIDS });
             match (is_even, is_straight) {
                 (true, _) => Form::Plain(still, Geometry::Sphere(radius * scale.x)),
@@ -62,33 +69,25 @@ pub fn form(of: &Prim, stretch: &Matrix3<f64>, tally: &mut Tally) -> Form {
             }
         }
         "Cylinder" | "Cylinder_1" => {
-            let radius = [value("radius", 1.0), value("radiusTop", 1.0)]
-                [usize::from(of.type_name.ends_with('1'))];
-            let height = value("height", 2.0);
+            let (radius, height) = (radius(1.0), value("height", 2.0));
+            let length = height * scale[axis];
             tally.count(features::BOXES);
             match is_round {
-                true => Form::Plain(
-                    pose,
-                    Geometry::Cylinder { radius: radius * a, length: height * scale[axis] },
-                ),
+                true => Form::Plain(pose, Geometry::Cylinder { radius: radius * a, length }),
                 false => stretched(primitives::cylinder(radius, height), &along),
             }
         }
         "Capsule" | "Capsule_1" => {
-            let radius = [value("radius", 0.5), value("radiusTop", 0.5)]
-                [usize::from(of.type_name.ends_with('1'))];
-            let height = value("height", 1.0);
+            let (radius, height) = (radius(0.5), value("height", 1.0));
+            let length = height * scale[axis];
             tally.count(features::CAPSULES);
             match is_even {
-                true => Form::Plain(
-                    pose,
-                    Geometry::Capsule { radius: radius * a, length: height * scale[axis] },
-                ),
+                true => Form::Plain(pose, Geometry::Capsule { radius: radius * a, length }),
                 false => stretched(primitives::capsule(radius, height), &along),
             }
         }
         "Cone" => {
-            let (radius, height) = (value("radius", 1.0), value("height", 2.0));
+            let (radius, height) = (radius(1.0), value("height", 2.0));
             tally.count(features::CONES);
             let mut mesh = cone();
             mesh.transform(
@@ -121,4 +120,226 @@ fn middle(bounds: &Bounds) -> Vector3<f64> {
 pub fn reach(mesh: &Mesh) -> f64 {
     let middle = mesh.bounds().map_or_else(Vector3::zeros, |bounds| middle(&bounds));
     mesh.vertices.iter().map(|point| (Vector3::from(*point) - middle).norm()).fold(0.0, f64::max)
+}
+
+/// Why a mesh is left out.
+pub type Problem = &'static str;
+
+/// Triangles of a mesh, each with the face that it is part of, and its corners in the list of those of faces.
+pub struct Faces {
+    pub mesh: Mesh,
+    pub of_triangle: Vec<u32>,
+    corners: Vec<[u32; 3]>,
+}
+
+/// Reads a mesh. Faces of more corners become fans; points are moved by a matrix, whose mirrors turn faces round.
+pub fn faces(prim: &Prim, linear: &Matrix3<f64>) -> Result<Faces, Problem> {
+    let numbers = |name: &str| prim.value(name).and_then(Value::numbers);
+    let points = numbers("points").filter(|points| !points.is_empty()).ok_or("it has no points")?;
+    let counts = numbers("faceVertexCounts").unwrap_or_default();
+    let indices = numbers("faceVertexIndices").unwrap_or_default();
+    let (triples, rest) = points.as_chunks::<3>();
+    if !rest.is_empty() {
+        return Err("its points do not have three numbers each");
+    }
+    let vertices: Vec<[f64; 3]> =
+        triples.iter().map(|point| (linear * Vector3::from(*point)).into()).collect();
+    let is_turned =
+        (word(prim, "orientation") == Some("leftHanded")) != (linear.determinant() < 0.0);
+    let (mut triangles, mut of_triangle, mut corners) = (Vec::new(), Vec::new(), Vec::new());
+    let mut first = 0;
+    for (face, count) in counts.iter().enumerate() {
+        let count = *count as usize;
+        let own = indices.get(first..).and_then(|rest| rest.get(..count));
+        let own = own.ok_or("its faces have more corners than there are")?;
+        if own.iter().any(|corner| !(0.0..vertices.len() as f64).contains(corner)) {
+            return Err("its faces name points that it does not have");
+        }
+        for second in 1..count.saturating_sub(1) {
+            let [b, c] = if is_turned { [second + 1, second] } else { [second, second + 1] };
+            triangles.push([0, b, c].map(|corner| own[corner] as u32));
+            corners.push([0, b, c].map(|corner| (first + corner) as u32));
+            of_triangle.push(face as u32);
+        }
+        first += count;
+    }
+    Ok(Faces { mesh: Mesh { vertices, triangles }, of_triangle, corners })
+}
+
+impl Faces {
+    /// The triangles of some faces.
+    pub fn part(&self, is_of: impl Fn(u32) -> bool) -> Mesh {
+        let all = self.mesh.triangles.iter().zip(&self.of_triangle);
+        let triangles =
+            all.filter(|(_, face)| is_of(**face)).map(|(triangle, _)| *triangle).collect();
+        let mut mesh = Mesh { vertices: self.mesh.vertices.clone(), triangles };
+        mesh.drop_unused_vertices();
+        mesh
+    }
+
+    /// The same with places in an image, one for each vertex; none if the mesh does not say them.
+    pub fn painted(
+        &self,
+        prim: &Prim,
+        image: &Image,
+        is_of: impl Fn(u32) -> bool,
+    ) -> Option<(Mesh, Vec<[f64; 2]>)> {
+        let name = format!("primvars:{}", image.primvar);
+        let of = prim.property(&name)?;
+        let (pairs, _) = of.value.as_ref()?.numbers()?.as_chunks::<2>();
+        let indices = prim.value(&format!("{name}:indices")).and_then(Value::numbers);
+        let kind = of.fields.iter().find(|(name, _)| **name == *"interpolation");
+        let kind = kind.and_then(|(_, kind)| kind.text()).map_or("constant", |kind| kind);
+        let (mut mesh, mut uv) = (Mesh::default(), Vec::new());
+        let mut known: HashMap<(u32, usize), u32> = HashMap::new();
+        for (at, triangle) in self.mesh.triangles.iter().enumerate() {
+            let face = self.of_triangle[at];
+            if !is_of(face) {
+                continue;
+            }
+            let mut corners = [0; 3];
+            for side in 0..3 {
+                let place = match kind {
+                    "faceVarying" => self.corners[at][side],
+                    "vertex" | "varying" => triangle[side],
+                    "uniform" => face,
+                    _ => 0,
+                } as usize;
+                let place =
+                    indices.map_or(Some(place), |all| all.get(place).map(|of| *of as usize));
+                let place = place?;
+                corners[side] = match known.get(&(triangle[side], place)) {
+                    Some(known) => *known,
+                    None => {
+                        let [u, v] = *pairs.get(place)?;
+                        let pair = image.moved * Vector3::new(u, v, 1.0);
+                        uv.push(pair.iter().all(|of| of.is_finite()).then(|| pair.into())?);
+                        mesh.vertices.push(self.mesh.vertices[triangle[side] as usize]);
+                        known.insert((triangle[side], place), uv.len() as u32 - 1);
+                        uv.len() as u32 - 1
+                    }
+                };
+            }
+            mesh.triangles.push(corners);
+        }
+        Some((mesh, uv))
+    }
+}
+
+/// The longest chain of connections to a value.
+const MOST_STEPS: usize = 8;
+
+pub struct Image {
+    pub file: String,
+    /// The primvar that says where it is.
+    pub primvar: String,
+    /// From that, with 1 as its third number, to places in the image.
+    pub moved: Matrix2x3<f64>,
+    /// What the mesh looks like with it.
+    pub rgba: [f64; 4],
+}
+
+/// The material by which a shape rubs.
+pub fn rubbed(scene: &Scene<'_>, prim: usize) -> Option<usize> {
+    let [seen, _, physics] = &scene.material;
+    physics[prim].or(seen[prim])
+}
+
+/// How a shape looks, without and with an image; `subset` may have a material of its own.
+pub fn look(
+    scene: &Scene<'_>,
+    prim: usize,
+    subset: Option<usize>,
+    tally: &mut Tally,
+) -> (Option<Material>, Option<Image>) {
+    let [seen, preview, _] = &scene.material;
+    let part = subset.unwrap_or(prim);
+    let material = seen[part].or(preview[part]);
+    let (rgba, image) = material.map_or((None, None), |material| of_material(scene, material));
+    if let (Some(material), true) = (material, rgba.is_some() || image.is_some()) {
+        tally.count(features::COLOURS);
+        let name = Some(scene.name(material).to_owned());
+        return (Some(Material { name, rgba, texture: None }), image);
+    }
+    let of = scene.prim(prim);
+    let first =
+        |name: &str| of.value(name).and_then(Value::numbers).filter(|numbers| !numbers.is_empty());
+    let Some(&[r, g, b, ..]) = first("primvars:displayColor") else { return (None, None) };
+    let alpha = first("primvars:displayOpacity").map_or(1.0, |values| values[0]);
+    tally.count(features::COLOURS);
+    (Some(Material { name: None, rgba: Some(shown([r, g, b], alpha)), texture: None }), None)
+}
+
+/// The colour of a material, and its image.
+fn of_material(scene: &Scene<'_>, material: usize) -> (Option<[f64; 4]>, Option<Image>) {
+    let of = scene.prim(material);
+    let outputs = ["outputs:surface", "outputs:mdl:surface"];
+    let Some(shader) = outputs.iter().find_map(|name| scene.target(of, name)) else {
+        return (None, None);
+    };
+    let shader = scene.prim(shader);
+    let sources = |names: &[&str]| names.iter().find_map(|name| source(scene, shader, name));
+    let opacity = sources(&["inputs:opacity", "inputs:opacity_constant"]);
+    let alpha = opacity.and_then(|(_, of)| of.value.as_ref()?.number()).unwrap_or(1.0);
+    let rgba = shown([1.0; 3], alpha);
+    let colour =
+        sources(&["inputs:diffuseColor", "inputs:diffuse_color_constant", "inputs:diffuse_tint"]);
+    let colour_of = |value: Option<&Value>| Some(shown(value?.tuple::<3>()?, alpha));
+    let file = |of: &Prim, name: &str| {
+        let file = source(scene, of, name)?.1.value.as_ref()?.text()?;
+        Some(file.to_string()).filter(|file| !file.is_empty())
+    };
+    if let Some((texture, _)) = colour
+        && let Some(file) = file(texture, "inputs:file")
+    {
+        let (primvar, moved) = placing(scene, texture);
+        let image = Image { file, primvar, moved, rgba };
+        let own = shader.value("inputs:diffuseColor");
+        return (colour_of(texture.value("inputs:fallback").or(own)), Some(image));
+    }
+    let rgba_of = colour.and_then(|(_, of)| colour_of(of.value.as_ref()));
+    let image = file(shader, "inputs:diffuse_texture");
+    let (primvar, moved) = placing(scene, shader);
+    (rgba_of, image.map(|file| Image { file, primvar, moved, rgba }))
+}
+
+/// The primvar by which a texture is placed, and what moves it.
+fn placing(scene: &Scene<'_>, texture: &Prim) -> (String, Matrix2x3<f64>) {
+    let mut moved = Matrix2x3::identity();
+    let mut of = source(scene, texture, "inputs:st").map(|(prim, _)| prim);
+    if let Some(turned) = of.filter(|of| of.property("inputs:in").is_some()) {
+        let pair = |name: &str| turned.value(name).and_then(Value::tuple::<2>).map(Vector2::from);
+        let angle = number(turned, "inputs:rotation").unwrap_or(0.0).to_radians();
+        let scale = Matrix2::from_diagonal(&pair("inputs:scale").unwrap_or(Vector2::repeat(1.0)));
+        let turn = Rotation2::new(angle).into_inner() * scale;
+        let shift = pair("inputs:translation").unwrap_or_default();
+        moved = Matrix2x3::from_columns(&[turn.column(0).into(), turn.column(1).into(), shift]);
+        of = source(scene, turned, "inputs:in").map(|(prim, _)| prim);
+    }
+    let name = of.and_then(|of| source(scene, of, "inputs:varname")?.1.value.as_ref()?.text());
+    (name.map_or("st", |name| name).to_owned(), moved)
+}
+
+/// What an input is connected to in the end, through others: the prim and its property.
+fn source<'s>(scene: &Scene<'s>, shader: &'s Prim, name: &str) -> Option<(&'s Prim, &'s Property)> {
+    let mut of = (shader, shader.property(name)?);
+    for _ in 0..MOST_STEPS {
+        let Some(target) = of.1.targets.first() else { break };
+        let (_, name) = target.split_once('.')?;
+        let prim = scene.prim(scene.stage.find(target)?);
+        match prim.property(name) {
+            Some(next) => of = (prim, next),
+            None => break,
+        }
+    }
+    Some(of)
+}
+
+/// A colour of light as one of a screen (sRGB), which URDF has; to 6 digits, which single precision gives.
+fn shown([r, g, b]: [f64; 3], alpha: f64) -> [f64; 4] {
+    let screen = |value: f64| match value.clamp(0.0, 1.0) {
+        value if value <= 0.0031308 => value * 12.92,
+        value => 1.055 * value.powf(1.0 / 2.4) - 0.055,
+    };
+    [screen(r), screen(g), screen(b), alpha.clamp(0.0, 1.0)].map(|part| (part * 1e6).round() / 1e6)
 }

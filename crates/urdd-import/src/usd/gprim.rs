@@ -12,16 +12,13 @@ use urdd_geometry::write::{obj, stl};
 use urdd_source::gate::Gate;
 use urdd_usd::Value;
 
-use super::super::features::{self, Tally};
-use super::super::model::{Asset, Geometry, Material, Shape, Use};
-use super::super::refusal::{Fallible, Placing};
 use super::assets::Assets;
-use super::form::{Form, bounding, form, reach};
-use super::frames::clean;
-use super::look::{look, rubbed};
-use super::made::Made;
-use super::mesh::{Faces, Problem, faces};
+use super::form::{Faces, Form, Problem, bounding, faces, form, look, reach, rubbed};
+use super::frames::{Made, clean};
 use super::scene::{Scene, flag, is_shape, is_square, number, split, word};
+use crate::features::{self, Tally};
+use crate::model::{Asset, Geometry, Material, Shape, Use};
+use crate::place::{Fallible, Placing};
 
 /// Bytes of a mesh in memory for each number of it, about: triangles, their hull, what is written; and of a copy.
 const MESH: usize = 60;
@@ -30,7 +27,6 @@ const COPY: usize = 8;
 /// their faces are turned.
 type MeshKey = ([usize; 3], [u64; 9], bool);
 
-/// The shapes of a robot, and the meshes of these.
 pub struct Shapes<'a, 's> {
     scene: &'a Scene<'s>,
     assets: Assets<'a>,
@@ -50,7 +46,6 @@ struct Seen {
     material: Option<Material>,
 }
 
-/// A shape that collides.
 pub struct Solid {
     pub prim: usize,
     pub pose: Isometry3<f64>,
@@ -63,12 +58,10 @@ impl<'a, 's> Shapes<'a, 's> {
         Shapes { scene, assets: Assets::new(gate), read: HashMap::new(), solids: HashMap::new() }
     }
 
-    /// The meshes.
     pub fn into_assets(self) -> Charged<Asset> {
         self.assets.into_all()
     }
 
-    /// Adds the shapes to their bodies.
     pub fn add(&mut self, made: &mut Made, tally: &mut Tally) -> Fallible<()> {
         for (at, prim) in self.scene.stage.prims.iter().enumerate() {
             if !is_shape(prim) {
@@ -161,8 +154,8 @@ impl<'a, 's> Shapes<'a, 's> {
         let faces = match self.faces(prim, &stretch)? {
             Ok(faces) => faces,
             Err(problem) => {
-                tally.count(features::MISSING_MESHES);
-                tally.remark(place, format!("the mesh `{name}` is left out: {problem}"));
+                let text = format!("the mesh `{name}` is left out: {problem}");
+                tally.say(features::MISSING_MESHES, place, text);
                 return Ok(());
             }
         };
@@ -199,7 +192,6 @@ impl<'a, 's> Shapes<'a, 's> {
         Ok(())
     }
 
-    /// The triangles of a mesh.
     fn faces(
         &mut self,
         prim: usize,
@@ -317,9 +309,9 @@ impl<'a, 's> Shapes<'a, 's> {
         if let (Ok(bytes), false) = (written, is_empty) {
             return self.assets.mesh(bytes, name, ending, place).map(Some);
         }
-        tally.count(features::MISSING_MESHES);
         let name = self.scene.name(prim);
-        tally.remark(place, format!("the mesh `{name}` is left out: it has no triangles"));
+        let text = format!("the mesh `{name}` is left out: it has no triangles");
+        tally.say(features::MISSING_MESHES, place, text);
         Ok(None)
     }
 
@@ -341,9 +333,8 @@ impl<'a, 's> Shapes<'a, 's> {
 
 /// Says that an image is left out.
 fn unplaced(scene: &Scene<'_>, prim: usize, tally: &mut Tally) {
-    tally.count(features::MISSING_MESHES);
     let name = scene.name(prim);
     let text =
         format!("the image on `{name}` is left out: the shape does not say where it is on it");
-    tally.remark(scene.place(prim), text);
+    tally.say(features::MISSING_MESHES, scene.place(prim), text);
 }

@@ -3,17 +3,15 @@
 use nalgebra::{Matrix3, Point3, UnitQuaternion};
 use urdd_usd::{Prim, Value};
 
-use super::super::features::{self, Tally};
-use super::super::mass::{WATER, moments, tensor, turned};
-use super::super::mesh_mass::{Mode, measure};
-use super::super::model::{Geometry, Inertial};
-use super::super::refusal::Fallible;
+use super::form::rubbed;
+use super::frames::Made;
 use super::gprim::{Shapes, Solid};
-use super::look::rubbed;
-use super::made::Made;
 use super::scene::{Scene, number, triple, turn, word};
+use crate::features::{self, Tally};
+use crate::mass::{Mode, WATER, measure, moments, tensor, turned};
+use crate::model::{Geometry, Inertial};
+use crate::place::Fallible;
 
-/// Adds masses to the bodies.
 pub fn add(
     scene: &Scene<'_>,
     made: &mut Made,

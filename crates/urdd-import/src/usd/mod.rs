@@ -1,41 +1,30 @@
 //! Reads USD: the bodies and joints of UsdPhysics in a stage as a robot.
 
-mod actuators;
 mod assets;
-mod door;
 mod drive;
-pub mod fault;
 mod form;
 mod frames;
 mod gprim;
-mod graph;
-mod groups;
 mod joint;
-mod look;
-mod made;
 mod mass;
-mod mesh;
-mod missing;
 mod pairs;
 mod robot;
 mod scene;
-mod upright;
 
 use std::collections::BTreeMap;
 
 use urdd_source::ImportOptions;
 use urdd_source::gate::Gate;
-use urdd_usd::{Place as LayerPlace, UsdError};
+use urdd_usd::{Place as LayerPlace, Stage, UsdError};
 
-use super::model::Model;
-use super::place::TextFile;
-use super::refusal::{Placed, placed};
-use door::GateDoor;
-use fault::UsdFault;
+use crate::fault::UsdFault;
+use crate::model::Model;
+use crate::place::{Placed, TextFile, placed};
+use assets::GateDoor;
+use joint::is_joint;
 use robot::robot;
 use scene::Scene;
 
-/// Reads the robot of a description.
 pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Model, Placed> {
     let name = file.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let shown = file.shown.clone();
@@ -57,7 +46,7 @@ pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Mode
         Placed { file: own.to_owned(), line, column, fault }
     };
     let stage = opened.map_err(refused)?;
-    if let Some(error) = missing::needed(&stage) {
+    if let Some(error) = needed(&stage) {
         return Err(refused(error.clone()));
     }
     let files: Vec<TextFile> =
@@ -71,4 +60,42 @@ pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Mode
         Ok(model) => Ok(Model { files, ..model }),
         Err(why) => Err(placed(&files, why)),
     }
+}
+
+/// The first that may hold a part of a robot: where bodies or joints are in the prim that brings it in, or it is in a body,
+/// or a joint leads into it, or there are no bodies.
+fn needed(stage: &Stage) -> Option<&UsdError> {
+    // Of each prim: whether it is in a body, and whether a body or a joint is in it.
+    let mut is_inside = vec![false; stage.prims.len()];
+    let mut is_around = vec![false; stage.prims.len()];
+    let mut has_bodies = false;
+    let mut mark = |mut at: Option<usize>| {
+        while let Some(prim) = at.filter(|prim| !std::mem::replace(&mut is_around[*prim], true)) {
+            at = stage.prims[prim].parent;
+        }
+    };
+    for (at, prim) in stage.prims.iter().enumerate() {
+        let is_body = prim.has("PhysicsRigidBodyAPI");
+        has_bodies |= is_body;
+        is_inside[at] = is_body || prim.parent.is_some_and(|parent| is_inside[parent]);
+        if is_body || is_joint(prim) {
+            mark(Some(at));
+        }
+        let ends = ["physics:body0", "physics:body1"].map(|end| prim.targets(end));
+        for target in ends.into_iter().flatten().filter(|target| stage.find(target).is_none()) {
+            // What is there of the path.
+            let mut path = &**target;
+            while let Some((above, _)) = path.rsplit_once('/') {
+                path = above;
+                if let Some(there) = stage.find(path) {
+                    mark(Some(there));
+                    break;
+                }
+            }
+        }
+    }
+    let is_needed = |prim: Option<usize>| {
+        prim.is_none_or(|prim| !has_bodies || is_inside[prim] || is_around[prim])
+    };
+    stage.missing.iter().find(|(prim, _)| is_needed(*prim)).map(|(_, error)| error)
 }

@@ -10,28 +10,22 @@ use urdd_source::ImportOptions;
 use urdd_source::gate::Gate;
 use urdd_usd::Value;
 
-use super::super::features::{self, Tally};
-use super::super::forest::Branch;
-use super::super::limits::{limits, say_closed};
-use super::super::model::{Body, Closing, End, Joint, JointKind, Mimic, Model};
-use super::super::names::Names;
-use super::super::refusal::{Fallible, Placing};
-use super::drive::drive;
-use super::frames::clean;
+use super::drive::{self, drive};
+use super::frames::{self, Made, clean};
 use super::gprim::Shapes;
-use super::graph::{Graph, graph};
-use super::joint::{JointEnd, MOTIONS, Motion, UsdJoint, joints};
-use super::made::Made;
+use super::joint::{Graph, JointEnd, MOTIONS, Motion, UsdJoint, graph, joints};
 use super::scene::{Scene, flag, number};
-use super::{actuators, frames, mass, missing, pairs, upright};
+use super::{mass, pairs};
+use crate::features::{self, Tally};
+use crate::graph::{Branch, limits, say_closed};
+use crate::model::{Body, Closing, End, Joint, JointKind, Mimic, Model};
+use crate::place::{Fallible, Placing};
+use crate::tree::Names;
 
-/// Reads the robot.
 pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallible<Model> {
     let (mut tally, account) = (Tally::default(), gate.account());
-    for _ in 0..scene.stage.sampled {
-        tally.count(features::SAMPLES);
-    }
-    missing::say(scene, &mut tally);
+    tally.add(features::SAMPLES, scene.stage.sampled);
+    say_missing(scene, &mut tally);
     let joints = joints(scene, &mut tally)?;
     let graph = graph(scene, &joints, options.body.as_deref(), &mut tally)?;
     let mut maker = Maker {
@@ -50,7 +44,7 @@ pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallibl
     shapes.add(&mut made, &mut tally)?;
     mass::add(scene, &mut made, &shapes, &mut tally)?;
     let (moving, of_joint) = (&mut made.bodies, &maker.of_joint);
-    actuators::give(scene, of_joint, moving, graph.is_floating, account, &mut tally)?;
+    drive::give(scene, of_joint, moving, graph.is_floating, account, &mut tally)?;
     let closings = maker.closings(&graph, &made, &mut tally)?;
     let (apart, checked) =
         pairs::pairs(scene, &joints, &made, &shapes.solids, account, &mut tally)?;
@@ -71,7 +65,7 @@ pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallibl
         ..Model::default()
     };
     if scene.is_y_up {
-        upright::turn(&mut model);
+        frames::turn(&mut model);
     }
     Ok(model)
 }
@@ -320,12 +314,9 @@ impl Maker<'_, '_> {
             let bodies =
                 joint.ends.map(|end| end.body.and_then(|body| made.index.get(&body).copied()));
             let (Some(kind), [Some(one), Some(other)]) = (kind, bodies) else {
-                tally.count(features::OPEN);
-                let text = format!(
-                    "the joint `{}` is left out: it closes a chain",
-                    self.scene.name(joint.prim)
-                );
-                tally.remark(place, text);
+                let name = self.scene.name(joint.prim);
+                let text = format!("the joint `{name}` is left out: it closes a chain");
+                tally.say(features::OPEN, place, text);
                 continue;
             };
             let ranges = joint.motions.iter().map(|motion| motion.range);
@@ -346,4 +337,27 @@ impl Maker<'_, '_> {
 /// An axis without components that the rounding of a rotation to single precision made of 0.
 fn clean_axis(axis: Vector3<f64>) -> Vector3<f64> {
     axis.map(|value| if value.abs() < 1e-7 { 0.0 } else { value })
+}
+
+/// Counts what is left out, so that the report has it.
+fn say_missing(scene: &Scene<'_>, tally: &mut Tally) {
+    for prim in &scene.stage.prims {
+        match &*prim.type_name {
+            "MjcTendon" => tally.count(features::TENDONS),
+            "MjcKeyframe" => tally.unread("keyframes of MuJoCo"),
+            _ => {}
+        }
+        let starts = |start: &str| prim.schemas.iter().any(|schema| schema.starts_with(start));
+        if starts("PhysxTendon") {
+            tally.count(features::TENDONS);
+        }
+        if starts("PhysxVehicle") || starts("PhysxParticle") || starts("PhysxDeformable") {
+            tally.count(features::SOFT);
+        }
+    }
+    for (prim, error) in &scene.stage.missing {
+        let place = prim.map_or_else(Default::default, |prim| scene.place(prim));
+        let text = format!("a reference is left out: {}", error.fault);
+        tally.say(features::MISSING_PARTS, place, text);
+    }
 }

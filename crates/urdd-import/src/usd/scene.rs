@@ -6,9 +6,8 @@ use nalgebra::{
 use urdd_usd::{Prim, Property, Stage, Value};
 use urdd_xml::is_character;
 
-use super::super::place::Place;
-use super::super::refusal::{Fallible, Placing, at as refused};
-use super::fault::UsdFault;
+use crate::fault::UsdFault;
+use crate::place::{Fallible, Place, Placing, at as refused};
 
 /// Metres of a unit where a stage does not say it: USD's own is the centimetre.
 const METRE: f64 = 0.01;
@@ -18,7 +17,6 @@ const PRIM: usize = 300;
 pub const BINDINGS: [&str; 3] =
     ["material:binding", "material:binding:preview", "material:binding:physics"];
 
-/// A stage.
 pub struct Scene<'s> {
     pub stage: &'s Stage,
     /// Metres and kilograms of a unit.
@@ -36,7 +34,6 @@ pub struct Scene<'s> {
     pub collider: Vec<Option<usize>>,
     /// Whether a prim is rendered.
     pub is_seen: Vec<bool>,
-    /// Whether a prim is in an articulation.
     pub is_articulated: Vec<bool>,
     /// Whether several joints of two bodies in a prim follow each other, and do not close a chain.
     pub adds_mobility: Vec<bool>,
@@ -118,7 +115,6 @@ impl<'s> Scene<'s> {
         Ok(scene)
     }
 
-    /// The prim at an index.
     pub fn prim(&self, at: usize) -> &'s Prim {
         &self.stage.prims[at]
     }
@@ -167,7 +163,6 @@ pub fn is_site(prim: &Prim) -> bool {
     prim.has("NewtonSiteAPI") || prim.has("MjcSiteAPI")
 }
 
-/// Whether a prim is a shape.
 pub fn is_shape(prim: &Prim) -> bool {
     !is_site(prim)
         && matches!(
@@ -304,12 +299,10 @@ fn rotation(of: &Property) -> Option<UnitQuaternion<f64>> {
     UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9)
 }
 
-/// A number that a prim has.
 pub fn number(prim: &Prim, name: &str) -> Option<f64> {
     number_of(prim.property(name)?)
 }
 
-/// Three numbers that a prim has.
 pub fn triple(prim: &Prim, name: &str) -> Option<Vector3<f64>> {
     vector(prim.property(name)?)
 }
@@ -319,12 +312,10 @@ pub fn turn(prim: &Prim, name: &str) -> Option<UnitQuaternion<f64>> {
     rotation(prim.property(name)?)
 }
 
-/// A word that a prim has.
 pub fn word<'p>(prim: &'p Prim, name: &str) -> Option<&'p str> {
     prim.value(name).and_then(Value::text).map(|text| &**text)
 }
 
-/// A truth value that a prim has.
 pub fn flag(prim: &Prim, name: &str, default: bool) -> bool {
     prim.value(name).and_then(Value::bool).unwrap_or(default)
 }

@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use crate::error::SourceError;
-use crate::note::{Note, NoteKind, SourcePlace};
 use urdd_directory::loops_toml::File;
 use urdd_directory::position::position;
 use urdd_format::short::Short;
+
+use crate::error::SourceError;
+use crate::note::{Note, NoteKind, SourcePlace};
 
 /// What a file says of loops.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -116,7 +116,6 @@ pub fn urdf_plus(robot: Node<'_, '_>) -> Option<(Said, Vec<LoopFault>)> {
     Some((said, faults))
 }
 
-/// The tree of a URDF.
 struct Tree<'a> {
     links: HashSet<&'a str>,
     /// For each child, its joint and parent.

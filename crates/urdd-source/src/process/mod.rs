@@ -13,16 +13,16 @@ mod linux;
 #[cfg(not(target_os = "linux"))]
 mod other;
 
-use std::io;
 use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
-use std::thread;
 use std::time::{Duration, Instant};
+use std::{io, thread};
+
+use urdd_directory::cancellation::Cancellation;
 
 #[cfg(target_os = "linux")]
 use linux::Tree;
 #[cfg(not(target_os = "linux"))]
 use other::Tree;
-use urdd_directory::cancellation::Cancellation;
 
 /// Polling interval for a running program.
 pub const PAUSE: Duration = Duration::from_millis(5);

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use crate::Files;
 use crate::arguments::{ArgumentsError, XacroArgument, arguments, needed};
-use crate::launch::choices;
 use crate::settings::Settings;
+use crate::suggested::choices;
 
 fn write(root: &Path, files: &[(&str, &str)]) {
     for (path, text) in files {

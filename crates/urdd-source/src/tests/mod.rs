@@ -5,7 +5,7 @@
 
 mod arguments;
 mod files;
+mod inspect;
 mod loops;
 mod origin;
 mod packages;
-mod sniff;

@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
+use urdd_xml::Xml;
+
 use crate::described::{Description, FileKind, Reason, describe};
 use crate::installed::Installed;
 use crate::macros::has_no_link;
 use crate::package_index::PackageIndex;
 use crate::robots::{BatchError, find, jobs};
 use crate::{Files, Packages, Settings};
-use urdd_xml::Xml;
 
 const XACRO: &str = "xmlns:xacro=\"http://www.ros.org/wiki/xacro\"";
 
@@ -22,7 +23,7 @@ fn memory(files: &[(&str, &str)]) -> Files {
 }
 
 fn installed(name: &str, text: &str) -> Installed {
-    crate::installs::installed(Path::new("/p"), &memory(&[(&format!("p/{name}"), text)]))
+    crate::installed::installed(Path::new("/p"), &memory(&[(&format!("p/{name}"), text)]))
 }
 
 fn first(installed: &Installed, path: &str) -> Option<String> {

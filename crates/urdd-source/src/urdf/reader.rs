@@ -3,29 +3,19 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use urdd_xml::Document;
-
-use super::numbers::{self, Numbers};
-use super::reading::Reading;
-use super::xml::{self, Element};
-use crate::fault::Fault;
-use crate::note::{NoteKind, Remark};
-use crate::origin::{from_xyzw, has_quaternions};
 use urdd_format::short::Short;
 use urdd_format::urdf as v1;
-use urdd_xml::element::Edit;
+use urdd_format::urdf::{Joint, UrdfModule};
+use urdd_xml::element::{self, Edit};
+use urdd_xml::{Node, XmlError};
+
+use crate::fault::{Fault, PlacedFault};
+use crate::note::{NoteKind, Remark};
+use crate::origin::{from_xyzw, has_quaternions};
 
 /// Maximum number of links, and of joints: indices have 32 bits.
 const MOST: usize = 10_000_000;
 
-/// Reads the robot of a document, and its faults.
-pub(super) fn read(document: &Document<'_>, file_stem: &str) -> UrdfReader {
-    let mut reader = UrdfReader::default();
-    reader.robot(document.root_element(), file_stem);
-    reader
-}
-
-/// Byte offsets of the parts of a joint.
 #[derive(Debug, Clone, Default)]
 pub(super) struct JointPlace {
     pub joint: usize,
@@ -76,10 +66,10 @@ impl UrdfReader {
 
     /// The first child element with this name; others are noted and ignored.
     pub(super) fn only<'a>(&mut self, parent: Element<'a>, name: &str) -> Option<Element<'a>> {
-        let mut found = xml::children(parent).filter(|(found, _)| *found == name);
+        let mut found = element::children(parent).filter(|(found, _)| *found == name);
         let (_, first) = found.next()?;
         for (_, again) in found {
-            let problem = format!("another `<{name}>` in one `<{}>`", xml::name(parent));
+            let problem = format!("another `<{name}>` in one `<{}>`", element::name(parent));
             self.remark(NoteKind::Repeated, again.range().start, problem, "the first is used");
         }
         Some(first)
@@ -91,7 +81,7 @@ impl UrdfReader {
         element: Element<'a>,
         name: &str,
     ) -> Option<urdd_xml::Attribute<'a, 'a>> {
-        if let Some(found) = xml::attribute(element, name) {
+        if let Some(found) = element::attribute(element, name) {
             return Some(found);
         }
         let mut others = element.attributes();
@@ -100,7 +90,7 @@ impl UrdfReader {
         let offset = found.range().start;
         // Some attributes are read twice.
         if self.mended.insert(offset) {
-            let element = xml::name(element);
+            let element = element::name(element);
             let problem = format!("`{}` of `<{element}>` is not spelled as in URDF", found.name());
             self.remark(NoteKind::Case, offset, problem, format!("read as `{name}`"));
             self.edit(found.range_qname(), name);
@@ -135,19 +125,19 @@ impl UrdfReader {
     ) -> Option<[f64; N]> {
         let found = self.attribute(element, attribute)?;
         let what = || {
-            let element = xml::name(element);
+            let element = element::name(element);
             format!("`{attribute}` of `<{element}>` is `{}`", Short::of(found.value()))
         };
-        match numbers::read(found.value()) {
+        match parse(found.value()) {
             Numbers::Finite(numbers) => Some(numbers),
             Numbers::NotFinite => {
                 let problem = format!("{}, which is not finite", what());
-                let assumed = absent(xml::name(element), attribute);
+                let assumed = absent(element::name(element), attribute);
                 self.remark(NoteKind::NotFinite, found.range().start, problem, assumed);
                 None
             }
             Numbers::Wrong => {
-                let problem = format!("{}, but should be {}", what(), numbers::what(N));
+                let problem = format!("{}, but should be {}", what(), wanted(N));
                 if let Some(numbers) = completed::<N>(attribute, found.value()) {
                     let words: Vec<String> = numbers.iter().map(f64::to_string).collect();
                     let text = words.join(" ");
@@ -156,7 +146,7 @@ impl UrdfReader {
                     self.edit(found.range_value(), text);
                     return Some(numbers);
                 }
-                let assumed = absent(xml::name(element), attribute);
+                let assumed = absent(element::name(element), attribute);
                 self.remark(NoteKind::Numbers, found.range().start, problem, assumed);
                 self.remove_attribute(element, found.range());
                 None
@@ -171,7 +161,7 @@ impl UrdfReader {
     /// The source text of elements that URDF does not define.
     pub(super) fn unknown(&mut self, parent: Element<'_>, known: &[&str]) -> Vec<String> {
         let mut unknown = Vec::new();
-        for (name, element) in xml::children(parent) {
+        for (name, element) in element::children(parent) {
             if known.contains(&name) {
                 continue;
             }
@@ -187,14 +177,14 @@ impl UrdfReader {
                 let assumed = "kept as text, without effect";
                 self.remark(NoteKind::Case, element.range().start, problem, assumed);
             }
-            unknown.push(xml::verbatim(element));
+            unknown.push(element.document().input_text()[element.range()].to_owned());
         }
         unknown
     }
 
-    fn robot(&mut self, robot: Element<'_>, file_stem: &str) {
+    pub(super) fn robot(&mut self, robot: Element<'_>, file_stem: &str) {
         let offset = robot.range().start;
-        let name = xml::name(robot);
+        let name = element::name(robot);
         if name != "robot" {
             self.fault(offset, Fault::NotRobot(Short::of(name)));
             return;
@@ -210,7 +200,7 @@ impl UrdfReader {
         self.reading.robot.name = name;
         self.reading.robot.version = self.text(robot, "version");
         self.reading.robot.unknown_elements = self.unknown(robot, &["link", "joint", "material"]);
-        for (name, element) in xml::children(robot) {
+        for (name, element) in element::children(robot) {
             match name {
                 "link" => {
                     if let Some(link) = self.link(element) {
@@ -230,13 +220,6 @@ impl UrdfReader {
         if robot.links.len() > MOST || robot.joints.len() > MOST {
             self.fault(offset, Fault::TooMany(MOST as u32));
         }
-    }
-
-    /// What was read, and the faults.
-    pub(super) fn finish(self) -> (Reading, Vec<(usize, Fault)>) {
-        let UrdfReader { mut reading, faults, .. } = self;
-        reading.remarks.sort_by_key(|remark| remark.offset);
-        (reading, faults)
     }
 
     pub(super) fn origin(&mut self, parent: Element<'_>) -> Option<v1::Origin> {
@@ -273,7 +256,7 @@ fn completed<const N: usize>(attribute: &str, text: &str) -> Option<[f64; N]> {
         let words = text.split(',').map(|word| word.trim().parse().ok());
         words.collect::<Option<Vec<f64>>>()
     };
-    let mut numbers = numbers::words(text).or_else(between_commas)?;
+    let mut numbers = words(text).or_else(between_commas)?;
     match (attribute, numbers.len()) {
         ("scale", 1) => numbers = vec![numbers[0]; 3],
         ("rgba", 3) => numbers.push(1.0),
@@ -300,4 +283,93 @@ fn absent(element: &str, attribute: &str) -> String {
 fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;");
     text.replace('"', "&quot;")
+}
+
+/// The result of reading a URDF.
+#[derive(Debug, Default)]
+pub struct Reading {
+    /// The robot.
+    pub robot: UrdfModule,
+    /// The link tree; valid if there are no faults.
+    pub tree: Tree,
+    /// Deviations, in the order of the text.
+    pub remarks: Vec<Remark>,
+    /// Edits that repair the text where it differs from what was read.
+    pub edits: Vec<Edit>,
+    /// Byte offset of each mesh element: links ascending, visual before collision, elements ascending.
+    pub mesh_offsets: Vec<usize>,
+    /// Whether there are xacro elements.
+    pub has_xacro: bool,
+}
+
+/// The kinematic tree, by link and joint indices.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Tree {
+    /// The root link.
+    pub root: usize,
+    /// For each joint, its parent link and child link.
+    pub ends: Vec<[usize; 2]>,
+    /// For each joint, the joint that it mimics.
+    pub drivers: Vec<Option<usize>>,
+}
+
+/// The axis of SPEC 5.7, not normalised.
+pub fn written_axis(joint: &Joint) -> [f64; 3] {
+    let axis = joint.axis.as_ref().and_then(|axis| axis.xyz);
+    axis.unwrap_or([1.0, 0.0, 0.0])
+}
+
+/// The result of parsing an attribute of `N` numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Numbers<const N: usize> {
+    /// `N` finite numbers.
+    Finite([f64; N]),
+    /// `N` numbers, at least one of them infinite or NaN.
+    NotFinite,
+    /// Anything else.
+    Wrong,
+}
+
+/// The words of an attribute as numbers; `None` if one is not a number.
+pub(super) fn words(text: &str) -> Option<Vec<f64>> {
+    text.split_ascii_whitespace().map(|word| word.parse().ok()).collect()
+}
+
+pub(super) fn parse<const N: usize>(text: &str) -> Numbers<N> {
+    match words(text).and_then(|words| <[f64; N]>::try_from(words).ok()) {
+        Some(numbers) if numbers.iter().all(|x| x.is_finite()) => Numbers::Finite(numbers),
+        Some(_) => Numbers::NotFinite,
+        None => Numbers::Wrong,
+    }
+}
+
+/// What an attribute of `count` numbers should be.
+pub(super) fn wanted(count: usize) -> String {
+    match count {
+        1 => "one number".to_owned(),
+        _ => format!("{count} numbers with white space between them"),
+    }
+}
+
+/// The numbers of a parent's only element of a name, each in the attribute of its field's name.
+macro_rules! element_of_numbers {
+    ($reader:ident, $parent:expr, $element:literal, $type:ident { $($field:ident),* }) => {
+        $reader.only($parent, $element).map(|element| v1::$type {
+            $($field: $reader.number(element, stringify!($field)),)*
+        })
+    };
+}
+
+pub(super) use element_of_numbers;
+
+pub(super) type Element<'a> = Node<'a, 'a>;
+
+/// A parser error as a fault with its position.
+pub(super) fn fault(error: &XmlError, text: &str) -> PlacedFault {
+    let at = error.pos();
+    let fault = match error {
+        XmlError::Entities(_) => Fault::Entities,
+        _ => Fault::NotXml(error.words(text)),
+    };
+    PlacedFault { file: None, line: at.row, column: at.col, fault }
 }

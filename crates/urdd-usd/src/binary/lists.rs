@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::super::error::Wrong;
-use super::super::value::{Item, ListOp, Name, Value};
 use super::cursor::Cursor;
 use super::sections::Crate;
+use crate::error::Wrong;
+use crate::layer::{Item, ListOp, Name, Value};
 
 /// Bytes of an entry in memory, with its place in a list.
 const ENTRY: usize = 96;
@@ -13,7 +13,6 @@ const ENTRY: usize = 96;
 /// Bits of what a list has.
 const EXPLICIT: u8 = 1;
 
-/// What entries of a list are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Entries {
     Tokens,

@@ -1,15 +1,15 @@
-//! The sections of a crate file, but those of paths and specs.
+//! The sections of a crate file, but that of specs.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::super::door::Door;
-use super::super::error::{Fault, Place, Wrong};
-use super::super::value::{Name, Value};
-use super::START;
-use super::cursor::Cursor;
-use super::packed::{integers, unpacked};
-use super::path_tree::Paths;
+use super::cursor::{Cursor, integers, unpacked};
+use crate::door::Door;
+use crate::error::{Fault, Place, Wrong};
+use crate::layer::{MAX_LEVELS, Name, Value};
+
+/// The first bytes of a crate file.
+pub const START: &[u8] = b"PXR-USDC";
 
 /// The oldest version, whose sections are packed as they are today.
 const OLDEST: u8 = 4;
@@ -18,7 +18,6 @@ const NEWEST: u8 = 13;
 /// Bytes of the entry of a section: 16 of its name, where it begins, its size.
 const SECTION: usize = 32;
 
-/// A crate file.
 pub struct Crate<'b> {
     pub bytes: &'b [u8],
     pub door: &'b mut dyn Door,
@@ -82,13 +81,11 @@ impl<'b> Crate<'b> {
         Ok(file)
     }
 
-    /// Charges memory at a place.
     pub fn charge(&mut self, cursor: &Cursor<'_>, bytes: usize) -> Result<(), Wrong> {
         let charged = self.door.charge(bytes);
         charged.map_err(|why| (Place::Byte(cursor.at as u64), Fault::TooMuch(why)))
     }
 
-    /// The start of a section.
     pub fn section(&self, name: &[u8]) -> Result<Cursor<'b>, Wrong> {
         match self.sections.get(name) {
             Some(start) => Ok(Cursor::new(self.bytes, *start)),
@@ -166,15 +163,134 @@ impl<'b> Crate<'b> {
         Ok(())
     }
 
-    /// A token by its number.
     pub fn token(&self, cursor: &Cursor<'_>, index: u32) -> Result<Name, Wrong> {
         let token = self.tokens.get(index as usize);
         token.cloned().ok_or_else(|| cursor.damaged("a token is missing"))
     }
 
-    /// A string by its number.
     pub fn string(&self, cursor: &Cursor<'_>, index: u32) -> Result<Name, Wrong> {
         let token = self.strings.get(index as usize);
         self.token(cursor, *token.ok_or_else(|| cursor.damaged("a string is missing"))?)
+    }
+}
+
+#[derive(Debug, Clone)]
+pub struct PathNode {
+    /// The path that it is inside of.
+    pub parent: Option<u32>,
+    pub name: Name,
+    pub is_property: bool,
+    pub level: u32,
+}
+
+/// All paths, by their numbers.
+#[derive(Debug, Default)]
+pub struct Paths {
+    pub nodes: Vec<Option<PathNode>>,
+    /// Texts that were made.
+    pub texts: Vec<Option<Name>>,
+}
+
+impl Paths {
+    /// The path of a number.
+    pub fn node(&self, index: u32) -> Option<&PathNode> {
+        self.nodes.get(index as usize)?.as_ref()
+    }
+}
+
+/// Bytes of a path in memory, about: of the tables, and of what is read for them.
+const PATH: usize = 100;
+
+impl Crate<'_> {
+    pub fn read_paths(&mut self) -> Result<(), Wrong> {
+        let mut cursor = self.section(b"PATHS")?;
+        let all = self.entries(&mut cursor)?;
+        let count = self.entries(&mut cursor)?;
+        if all < count {
+            return Err(cursor.damaged("there are more paths than it says"));
+        }
+        self.charge(&cursor, all.saturating_mul(PATH))?;
+        let indices = self.integers(&mut cursor, count, false)?;
+        let names = self.integers(&mut cursor, count, false)?;
+        let jumps = self.integers(&mut cursor, count, false)?;
+        // More than are encoded are empty.
+        if all > 2 * count + 64 {
+            return Err(cursor.damaged("most paths are missing"));
+        }
+        self.paths.nodes = vec![None; all];
+        self.paths.texts = vec![None; all];
+        let mut is_seen = vec![false; count];
+        let mut open = if count > 0 { vec![(0, None)] } else { Vec::new() };
+        while let Some((at, parent)) = open.pop() {
+            if is_seen.get(at) != Some(&false) {
+                return Err(cursor.damaged("paths are no tree"));
+            }
+            is_seen[at] = true;
+            let node = self.path(&cursor, parent, names[at])?;
+            let index = indices[at] as u32;
+            match self.paths.nodes.get_mut(index as usize) {
+                Some(free @ None) => *free = Some(node),
+                _ => return Err(cursor.damaged("a path is there twice, or out of range")),
+            }
+            let jump = jumps[at];
+            let (has_child, has_sibling) = (jump > 0 || jump == -1, jump >= 0);
+            // The root has no siblings.
+            let above = if parent.is_none() { Some(index) } else { parent };
+            if has_sibling {
+                open.push((at + if has_child { jump as usize } else { 1 }, above));
+            }
+            if has_child {
+                open.push((at + 1, Some(index)));
+            }
+        }
+        Ok(())
+    }
+
+    fn path(&self, cursor: &Cursor<'_>, parent: Option<u32>, name: i64) -> Result<PathNode, Wrong> {
+        let Some(parent) = parent else {
+            return Ok(PathNode { parent, name: Arc::from(""), is_property: false, level: 0 });
+        };
+        let level = self.paths.node(parent).map_or(0, |above| above.level) + 1;
+        // Properties and variants are levels, too.
+        if level as usize > MAX_LEVELS + 2 {
+            return Err((Place::Layer, Fault::Deep(MAX_LEVELS)));
+        }
+        let token = self.token(cursor, name.unsigned_abs() as u32)?;
+        Ok(PathNode { parent: Some(parent), name: token, is_property: name < 0, level })
+    }
+
+    /// The text of a path, without variants.
+    pub fn path_text(&mut self, cursor: &Cursor<'_>, index: u32) -> Result<Name, Wrong> {
+        let at = index as usize;
+        let known = self.paths.texts.get(at);
+        if let Some(Some(text)) = known {
+            return Ok(text.clone());
+        }
+        let mut parts = Vec::new();
+        let mut next = Some(index);
+        while let Some(at) = next {
+            // An empty path: a reference to the default prim has one.
+            let Some(node) = self.paths.node(at) else { return Ok(Arc::from("")) };
+            parts.push(node);
+            next = node.parent;
+        }
+        let mut text = String::new();
+        for node in parts.iter().rev().skip(1) {
+            let mark = match node.is_property {
+                _ if node.name.starts_with('{') => continue,
+                _ if node.name.starts_with('[') => "",
+                true => ".",
+                false => "/",
+            };
+            text.push_str(mark);
+            text.push_str(&node.name);
+        }
+        if text.is_empty() {
+            text.push('/');
+        }
+        self.charge(cursor, text.len() + 16)?;
+        let text: Name = Arc::from(text);
+        self.paths.texts[at] = Some(text.clone());
+        Ok(text)
     }
 }

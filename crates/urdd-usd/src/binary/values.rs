@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use super::super::error::{Fault, Place, Wrong};
-use super::super::half;
-use super::super::value::{MAX_VALUE_LEVELS, Name, Value};
 use super::cursor::Cursor;
 use super::lists::unread;
 use super::sections::Crate;
+use crate::error::{Fault, Place, Wrong};
+use crate::layer::{MAX_VALUE_LEVELS, Name, Value, from_half};
 
 /// Arrays of fewer numbers are not packed.
 const MIN_PACKED: usize = 16;
@@ -27,27 +26,26 @@ enum Scalar {
 
 use Scalar::*;
 
-/// The numbers of a type: how each is written, how many there are, and whether they are a quaternion or a matrix.
-const fn numbers_of(kind: u8) -> Option<(Scalar, usize, bool)> {
+/// The numbers of a type: how each is written, and how many there are.
+const fn numbers_of(kind: u8) -> Option<(Scalar, usize)> {
     Some(match kind {
-        1 | 2 => (U8, 1, false),
-        3 => (I32, 1, false),
-        4 => (U32, 1, false),
-        5 => (I64, 1, false),
-        6 => (U64, 1, false),
-        7 => (Half, 1, false),
-        8 => (Single, 1, false),
-        9 | 56 => (Double, 1, false),
-        13 => (Double, 4, true),
-        14 => (Double, 9, true),
-        15 => (Double, 16, true),
-        16 => (Double, 4, true),
-        17 => (Single, 4, true),
-        18 => (Half, 4, true),
-        19 | 23 | 27 => (Double, 2 + (kind as usize - 19) / 4, false),
-        20 | 24 | 28 => (Single, 2 + (kind as usize - 20) / 4, false),
-        21 | 25 | 29 => (Half, 2 + (kind as usize - 21) / 4, false),
-        22 | 26 | 30 => (I32, 2 + (kind as usize - 22) / 4, false),
+        1 | 2 => (U8, 1),
+        3 => (I32, 1),
+        4 => (U32, 1),
+        5 => (I64, 1),
+        6 => (U64, 1),
+        7 => (Half, 1),
+        8 => (Single, 1),
+        9 | 56 => (Double, 1),
+        14 => (Double, 9),
+        15 => (Double, 16),
+        13 | 16 => (Double, 4),
+        17 => (Single, 4),
+        18 => (Half, 4),
+        19 | 23 | 27 => (Double, 2 + (kind as usize - 19) / 4),
+        20 | 24 | 28 => (Single, 2 + (kind as usize - 20) / 4),
+        21 | 25 | 29 => (Half, 2 + (kind as usize - 21) / 4),
+        22 | 26 | 30 => (I32, 2 + (kind as usize - 22) / 4),
         _ => return None,
     })
 }
@@ -69,7 +67,7 @@ impl Scalar {
             U32 => f64::from(cursor.u32()?),
             I64 => cursor.i64()? as f64,
             U64 => cursor.u64()? as f64,
-            Half => half::from_bits(cursor.u16()?),
+            Half => from_half(cursor.u16()?),
             Single => cursor.f32()?,
             Double => cursor.f64()?,
         })
@@ -148,7 +146,7 @@ impl<'b> Crate<'b> {
                 Value::Tuple(all.into())
             }
             19..=30 => {
-                let width = numbers_of(of.kind).map_or(0, |(_, width, _)| width);
+                let width = numbers_of(of.kind).map_or(0, |(_, width)| width);
                 Value::Tuple(bytes[..width].iter().map(|byte| f64::from(*byte as i8)).collect())
             }
             // Doubles are inlined as singles, long integers as short ones.
@@ -156,7 +154,7 @@ impl<'b> Crate<'b> {
             6 => Value::Number(f64::from(index)),
             9 | 56 => Value::Number(cursor.f32()?),
             kind => match numbers_of(kind) {
-                Some((scalar, 1, _)) => Value::Number(scalar.read(&mut cursor)?),
+                Some((scalar, 1)) => Value::Number(scalar.read(&mut cursor)?),
                 _ => unread(kind),
             },
         })
@@ -167,7 +165,7 @@ impl<'b> Crate<'b> {
         let numbers = numbers_of(of.kind);
         if of.payload == 0 {
             return Ok(match numbers {
-                Some((_, width, _)) => Value::Numbers { width, values: Arc::from([]) },
+                Some((_, width)) => Value::Numbers { width, values: Arc::from([]) },
                 None => Value::Texts(Arc::from([])),
             });
         }
@@ -177,7 +175,7 @@ impl<'b> Crate<'b> {
         }
         let count = if self.version < 7 { u64::from(cursor.u32()?) } else { cursor.u64()? };
         let count = usize::try_from(count).map_err(|_| cursor.damaged("an array is too long"))?;
-        let Some((scalar, width, is_special)) = numbers else {
+        let Some((scalar, width)) = numbers else {
             return self.texts(of.kind, count, &mut cursor);
         };
         if of.is_packed && width == 1 && count >= MIN_PACKED {
@@ -192,13 +190,12 @@ impl<'b> Crate<'b> {
         for _ in 0..count * width {
             values.push(scalar.read(&mut inside)?);
         }
-        if is_special && (16..=18).contains(&of.kind) {
+        if (16..=18).contains(&of.kind) {
             values.as_chunks_mut::<4>().0.iter_mut().for_each(|four| four.rotate_right(1));
         }
         Ok(Value::Numbers { width, values: values.into() })
     }
 
-    /// An array of packed numbers.
     fn packed(
         &mut self,
         scalar: Scalar,
@@ -236,7 +233,6 @@ impl<'b> Crate<'b> {
         }
     }
 
-    /// An array of texts.
     fn texts(&mut self, kind: u8, count: usize, cursor: &mut Cursor<'b>) -> Result<Value, Wrong> {
         if !matches!(kind, 10..=12 | 57) {
             return Ok(unread(kind));
@@ -256,7 +252,7 @@ impl<'b> Crate<'b> {
 
     /// A value that is at a place.
     fn written(&mut self, kind: u8, cursor: &mut Cursor<'b>, level: usize) -> Result<Value, Wrong> {
-        if let Some((scalar, width, _)) = numbers_of(kind) {
+        if let Some((scalar, width)) = numbers_of(kind) {
             let mut values = Vec::with_capacity(width);
             for _ in 0..width {
                 values.push(scalar.read(cursor)?);
@@ -265,7 +261,7 @@ impl<'b> Crate<'b> {
                 values.rotate_right(1);
             }
             self.charge(cursor, 8 * width)?;
-            return Ok(match (kind, values[..].as_ref()) {
+            return Ok(match (kind, &values[..]) {
                 (1, [one]) => Value::Bool(*one != 0.0),
                 (_, [one]) => Value::Number(*one),
                 _ => Value::Tuple(values.into()),

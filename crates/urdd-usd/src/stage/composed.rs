@@ -3,9 +3,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::super::error::UsdError;
-use super::super::layer::field;
-use super::super::value::{Name, Value};
+use crate::error::UsdError;
+use crate::layer::{Name, Value, field};
 
 /// A composed scene.
 #[derive(Debug, Default)]

@@ -3,12 +3,10 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::super::door::{Door, beside, is_remote};
-use super::super::error::{Fault, Place, UsdError};
-use super::super::layer::{Layer, Spec, field};
-use super::super::package::{self, Package};
-use super::super::value::{Name, Value};
-use super::super::{binary, text};
+use crate::door::{Door, PACKAGE_START, Package, beside, is_remote};
+use crate::error::{Fault, Place, UsdError};
+use crate::layer::{Layer, Name, Spec, Value, field};
+use crate::{binary, text};
 
 /// Bytes that are made of each byte of text, at most: `int a` becomes a property with a field.
 const OF_TEXT: usize = 60;
@@ -24,7 +22,6 @@ pub struct Loaded {
     pub layer: Layer,
 }
 
-/// All layers.
 pub struct Layers<'d> {
     pub door: &'d mut dyn Door,
     pub all: Vec<Loaded>,
@@ -35,7 +32,6 @@ pub struct Layers<'d> {
     packages: HashMap<String, Package>,
 }
 
-/// An error of a layer.
 pub fn error(layer: &str, place: Place, fault: Fault) -> UsdError {
     UsdError { layer: Arc::from(layer), place, fault }
 }
@@ -106,20 +102,17 @@ impl<'d> Layers<'d> {
         let path = of.path.clone();
         let mut all = Vec::new();
         for name in names {
-            let named = self.named(layer, &name).map_err(|fault| error(&path, Place::Layer, fault));
-            all.push(self.load_from(&named?, &path, Place::Layer)?);
+            let named =
+                self.named(layer, &name).map_err(|fault| error(&path, Place::Layer, fault))?;
+            let read = self.load(&named).map_err(|mut wrong| {
+                if matches!(wrong.fault, Fault::File { .. }) && *wrong.layer == *named {
+                    (wrong.layer, wrong.place) = (path.clone(), Place::Layer);
+                }
+                wrong
+            });
+            all.push(read?);
         }
         Ok(all)
-    }
-
-    /// A layer that another one names at a place.
-    fn load_from(&mut self, path: &str, layer: &str, place: Place) -> Result<u32, UsdError> {
-        self.load(path).map_err(|mut fault| {
-            if matches!(fault.fault, Fault::File { .. }) && &*fault.layer == path {
-                (fault.layer, fault.place) = (Arc::from(layer), place);
-            }
-            fault
-        })
     }
 
     /// Reads a layer, if it was not read yet.
@@ -130,7 +123,7 @@ impl<'d> Layers<'d> {
         let wrong = |(place, fault)| error(path, place, fault);
         let layer = |fault| error(path, Place::Layer, fault);
         let bytes = self.bytes(path).map_err(layer)?;
-        let at = if bytes.starts_with(package::START) {
+        let at = if bytes.starts_with(PACKAGE_START) {
             let mut package = Package::open(bytes).map_err(layer)?;
             let root = package.root().map_err(layer)?;
             self.packages.insert(path.to_owned(), package);

@@ -4,12 +4,11 @@ use std::collections::HashSet;
 use std::rc::Rc;
 use std::sync;
 
-use super::super::error::{Fault, Place, UsdError};
-use super::super::layer::{Spec, field};
-use super::super::value::{Item, ListOp, Name, Value};
 use super::composed::Stage;
 use super::layers::{Layers, error};
 use super::tree::{Arc, Site, Tree};
+use crate::error::{Fault, Place, UsdError};
+use crate::layer::{Item, ListOp, Name, Spec, Value, field};
 
 /// The most sites of one prim. Robots have up to ten.
 pub const MAX_SITES: usize = 1000;
@@ -28,7 +27,6 @@ const ARCS: [(&str, Arc); 4] = [
     ("specializes", Arc::Specialize),
 ];
 
-/// Composes the layers.
 pub struct Composer<'d> {
     pub layers: Layers<'d>,
     /// What is being looked up, so that circles are seen.
@@ -43,7 +41,6 @@ impl<'d> Composer<'d> {
         Composer { layers, chain: Vec::new(), missing: Vec::new(), sampled: 0 }
     }
 
-    /// All prims of a stack.
     pub fn stage(mut self, stack: usize) -> Result<Stage, UsdError> {
         let mut stage = Stage::default();
         let root = self.layers.stacks[stack][0];
@@ -102,7 +99,6 @@ impl<'d> Composer<'d> {
         Ok(())
     }
 
-    /// What a layer says.
     pub fn spec(&self, (layer, spec): (u32, u32)) -> &Spec {
         &self.layers.all[layer as usize].layer.specs[spec as usize]
     }
@@ -128,7 +124,6 @@ impl<'d> Composer<'d> {
         error(&self.layers.all[layer].path, place, fault)
     }
 
-    /// Charges memory for a prim.
     pub fn charge(&mut self, tree: &Tree, names: &[Name], bytes: usize) -> Result<(), UsdError> {
         let charged = self.layers.door.charge(bytes);
         charged.map_err(|why| self.wrong(tree, names, Fault::TooMuch(why)))
@@ -364,7 +359,6 @@ pub fn absolute(prim: &str, path: &str) -> String {
     format!("/{}{property}", parts.join("/"))
 }
 
-/// A shared text.
 pub fn shared(text: String) -> Name {
     sync::Arc::from(text)
 }

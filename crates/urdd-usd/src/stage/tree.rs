@@ -2,8 +2,8 @@
 
 use std::cmp::Reverse;
 
-use super::super::value::Name;
 use super::layers::Layers;
+use crate::layer::Name;
 
 /// How a site comes in, strongest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -19,7 +19,6 @@ pub enum Arc {
 /// A place in a stack of layers that has opinions of a prim.
 #[derive(Debug, Clone)]
 pub struct Site {
-    /// The site that brought it in.
     pub above: usize,
     pub arc: Arc,
     /// The level of the prim where it came in, of that the tree is of; deeper ones are stronger.
@@ -54,7 +53,6 @@ impl Site {
 }
 
 impl Tree {
-    /// The root of a stack.
     pub fn root(stack: usize, layers: &Layers<'_>) -> Self {
         let mut site = Site::new(0, Arc::Root, 0, stack, Name::from("/"), 0);
         site.specs = layers.stacks[stack].iter().map(|layer| (*layer, 0)).collect();
@@ -124,7 +122,6 @@ impl Tree {
         }
     }
 
-    /// Whether a site is that of a class.
     pub fn is_class(&self, at: usize) -> bool {
         matches!(self.0[at].arc, Arc::Inherit | Arc::Specialize)
     }

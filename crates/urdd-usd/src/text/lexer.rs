@@ -4,17 +4,13 @@ use std::borrow::Cow;
 
 use super::super::error::{Fault, Place, Wrong};
 
-/// A word.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Token<'t> {
     /// A name, with `:` inside.
     Name(&'t str),
     Number(f64),
-    /// In quotes.
     Text(Cow<'t, str>),
-    /// In `@`.
     Asset(Cow<'t, str>),
-    /// In `<>`.
     Path(&'t str),
     /// Any other character.
     Mark(char),
@@ -40,7 +36,6 @@ fn short(text: &str) -> String {
     text.chars().take(60).collect()
 }
 
-/// Reads words.
 #[derive(Debug)]
 pub struct Lexer<'t> {
     text: &'t str,
@@ -94,7 +89,6 @@ impl<'t> Lexer<'t> {
         Ok(self.ahead.as_ref().unwrap_or(&Token::End))
     }
 
-    /// The next word.
     pub fn next(&mut self) -> Result<Token<'t>, Wrong> {
         match self.ahead.take() {
             Some(token) => Ok(token),

@@ -16,15 +16,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use nalgebra::Isometry3;
+use urdd_source::gate::Gate;
+use urdd_source::{Files, ImportOptions, Settings};
 
 use crate::model::{Body, Joint, Model};
-use crate::place::TextFile;
-use crate::refusal::Placed;
+use crate::place::{Placed, TextFile};
 use crate::sdf;
-use urdd_source::Files;
-use urdd_source::ImportOptions;
-use urdd_source::Settings;
-use urdd_source::gate::Gate;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src/tests/sdf/fixtures")

@@ -1,6 +1,6 @@
 //! Checks that a file's content matches its use; other files are not stored.
 
-use crate::sniff::*;
+use crate::inspect::*;
 
 #[test]
 fn secrets_are_no_meshes_nor_images_nor_materials() {

@@ -1,9 +1,14 @@
-//! The trees in a graph of bodies and joints.
+//! What SDF and USD share: the trees in a graph of bodies and joints, limits of which one is not said, and cones.
+
+use urdd_geometry::Mesh;
+
+use crate::features::{self, Tally};
+use crate::model::JointKind;
+use crate::place::Place;
 
 /// A body in a tree.
 #[derive(Debug, Clone, Copy)]
 pub struct Branch {
-    /// The body.
     pub body: usize,
     /// The place of the branch before it, and the joint between the two; none of a root.
     pub joint: Option<(usize, usize)>,
@@ -46,12 +51,10 @@ impl Forest {
         true
     }
 
-    /// How many joints a body has.
     pub fn joints(&self, body: usize) -> usize {
         self.around[body].len()
     }
 
-    /// Whether a body is the child of a joint.
     pub fn is_child(&self, body: usize) -> bool {
         self.around[body].iter().any(|(_, _, is_child)| *is_child)
     }
@@ -72,4 +75,60 @@ impl Forest {
             }));
         }
     }
+}
+
+/// How far the other limit is from one that stands alone, rad and m.
+const FAR: [f64; 2] = [4.0 * std::f64::consts::PI, 10.0];
+
+/// The limits of a joint, where infinite ones are none; `None` without any.
+pub fn limits(
+    [lower, upper]: [f64; 2],
+    kind: JointKind,
+    (joint, place): (&str, Place),
+    tally: &mut Tally,
+) -> Option<[f64; 2]> {
+    let far = FAR[usize::from(kind == JointKind::Slide)];
+    let (range, missing) = match (lower.is_finite(), upper.is_finite()) {
+        (true, true) => return Some([lower, upper]),
+        (false, false) => return None,
+        (true, false) => ([lower, far.max(lower + far)], "upper"),
+        (false, true) => ([(-far).min(upper - far), upper], "lower"),
+    };
+    let text = format!("joint `{joint}` has no {missing} limit: it is written with {range:?}");
+    tally.say(features::ONE_SIDED, place, text);
+    Some(range)
+}
+
+/// Says that a joint closes a chain, in which its limits are left out.
+pub fn say_closed(
+    ranges: impl IntoIterator<Item = [f64; 2]>,
+    (joint, place): (&str, Place),
+    tally: &mut Tally,
+) {
+    tally.count(features::CLOSED);
+    if ranges.into_iter().flatten().any(f64::is_finite) {
+        let text = format!(
+            "the limits of joint `{joint}` are left out: it closes a chain, and moves as the others let it"
+        );
+        tally.remark(place, text);
+    }
+}
+
+const SIDES: u32 = 64;
+
+/// A cone of radius 1 and length 1 along z, about the middle of its length, its tip at the top.
+pub fn cone() -> Mesh {
+    let rim = (0..SIDES).map(|side| {
+        let angle = std::f64::consts::TAU * f64::from(side) / f64::from(SIDES);
+        [angle.cos(), angle.sin(), -0.5]
+    });
+    let vertices: Vec<[f64; 3]> = rim.chain([[0.0, 0.0, 0.5], [0.0, 0.0, -0.5]]).collect();
+    let (tip, middle) = (SIDES, SIDES + 1);
+    let triangles = (0..SIDES).flat_map(|side| {
+        let next = (side + 1) % SIDES;
+        [[side, next, tip], [next, side, middle]]
+    });
+    let mut mesh = Mesh { vertices, triangles: triangles.collect() };
+    mesh.round_to_f32();
+    mesh
 }
