@@ -110,8 +110,8 @@ pub use srdf::groups::joint_groups_of_srdf;
 pub use srdf::import::{ImportedSkips, ImportedStates, SrdfError, import_srdf, import_states};
 pub use urdd_directory::export_toml::ActuatorKind;
 pub use urdd_format::word::{UnknownWord, Word};
-pub use urdd_spheres::list::SphereList;
 pub use urdd_spheres::model::Sphere;
+pub use urdd_spheres::model::SphereList;
 
 // What most files use.
 use gains::Gains;

@@ -4,7 +4,7 @@ use crate::Choices;
 use urdd_format::link_shapes_spheres::{SphereLevel, SphereOrigin};
 use urdd_robot::{Robot, RobotError};
 use urdd_spheres::model::{Sphere, Spheres};
-use urdd_spheres::pairs::Pairs;
+use urdd_spheres::samples::Pairs;
 
 /// A level of `link_shapes_spheres_module`.
 pub(super) struct Level {

@@ -5,7 +5,7 @@ use urdd_robot::{Robot, RobotError};
 use urdd_spheres::fitted::Numbers;
 use urdd_spheres::judge::{self, PairFaults, SphereRates};
 use urdd_spheres::model::Spheres;
-use urdd_spheres::pairs::Pairs;
+use urdd_spheres::samples::Pairs;
 use urdd_spheres::samples::{Ask, Region, Sample, Sampler};
 
 /// Maximum number of wrong results that are traced to pairs.

@@ -23,7 +23,7 @@ use urdd_spheres::fitted::{Numbers, auto_limits, fitted, surfaces};
 use urdd_spheres::frame::Point;
 pub use urdd_spheres::judge::SphereRates;
 use urdd_spheres::model::{Sphere, Spheres};
-use urdd_spheres::pairs::Pairs;
+use urdd_spheres::samples::Pairs;
 
 /// The data of the file.
 struct Model {

@@ -8,7 +8,7 @@ use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind, Solid};
-use urdd_spheres::pairs::Pairs;
+use urdd_spheres::samples::Pairs;
 
 /// Pairs of links with shapes of which the URDD checks at least one pair of pieces.
 pub(super) fn of(

@@ -5,8 +5,8 @@ use thiserror::Error;
 use urdd_directory::limits::MAX_SPHERES_BYTES;
 use urdd_format::link_shapes_spheres::SPHERES_MAX_IN_LEVEL;
 use urdd_format::short::Short;
-use urdd_spheres::list::SphereList;
 use urdd_spheres::model::Sphere;
+use urdd_spheres::model::SphereList;
 
 /// The farthest that a centre may be, and the largest radius, m.
 const FARTHEST: f64 = 1e9;

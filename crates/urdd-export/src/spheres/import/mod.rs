@@ -12,7 +12,7 @@ use urdd_format::link_shapes_spheres::LinkShapesSpheresModule;
 use urdd_format::registry::ModuleKind;
 use urdd_format::short::Short;
 use urdd_robot::{Files, Robot, RobotError, ShapeKind};
-use urdd_spheres::list::SphereList;
+use urdd_spheres::model::SphereList;
 use urdd_spheres::module::{NoSpheres, Subject, module};
 
 /// A URDD's spheres after an import.
