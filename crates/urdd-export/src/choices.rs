@@ -5,15 +5,15 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 use thiserror::Error;
+
+use crate::setup::BANDWIDTH;
+use crate::{Detail, Fit, Format, NoFit, Ros, Setup, Shapes};
 use urdd_directory::export_toml::ActuatorKind;
 use urdd_directory::range::{OutOfRange, Range};
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::shape_kind::UnknownShapeKind;
 use urdd_format::word::{UnknownWord, Word, with_word};
 use urdd_robot::ShapeKind;
-
-use crate::setup::gains::BANDWIDTH;
-use crate::{Detail, Fit, Format, NoFit, Ros, Setup, Shapes};
 
 /// The kinds of shapes.
 pub const KINDS: [Word; 6] = [

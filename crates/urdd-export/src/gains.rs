@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Isometry3, Point3, Rotation3, Vector3};
 
 use crate::inertia::tensor;
-use crate::setup::gains::USUAL_BANDWIDTH;
+use crate::setup::USUAL_BANDWIDTH;
 use crate::{ExportError, Note, Subject};
 use urdd_directory::export_toml::ActuatorKind;
 use urdd_document::robot::{Inertial, Joint};

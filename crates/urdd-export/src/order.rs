@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
 
 use crate::mjcf::actuators;
-use crate::parts::JointNames;
+use crate::names::JointNames;
 use crate::usd::names::names_of_joints;
 use crate::{ExportError, Format, Note, Structure, Subject, drake};
 use urdd_format::urdf::{JointType, UrdfModule};

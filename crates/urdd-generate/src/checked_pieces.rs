@@ -25,7 +25,7 @@ use urdd_spheres::module::{Given, NoSpheres};
 use urdd_spheres::samples::{Moves, Pairs};
 
 /// The pieces of all links.
-pub(super) struct CheckedPieces<'a> {
+struct CheckedPieces<'a> {
     pub pieces: &'a [Vec<WrittenMesh>],
     pub skips: &'a LinkShapesSkipsModule,
     /// The place of each link in the matrix over full shapes.
@@ -35,7 +35,7 @@ pub(super) struct CheckedPieces<'a> {
 }
 
 impl<'a> CheckedPieces<'a> {
-    pub fn new(pieces: &'a [Vec<WrittenMesh>], skips: &'a LinkShapesSkipsModule) -> Self {
+    fn new(pieces: &'a [Vec<WrittenMesh>], skips: &'a LinkShapesSkipsModule) -> Self {
         let mut full = vec![None; pieces.len()];
         for (place, link) in skips.full_shapes.iter().enumerate() {
             if let Some(full) = full.get_mut(link.get()) {
@@ -48,7 +48,7 @@ impl<'a> CheckedPieces<'a> {
     }
 
     /// Whether contacts of two pieces, by their numbers among those of all links, count.
-    pub fn is_checked(&self, a: usize, b: usize) -> bool {
+    fn is_checked(&self, a: usize, b: usize) -> bool {
         match &self.skips.decomposition_convex_hulls_skips {
             Some(rows) => !rows[a][b],
             None => match [a, b].map(|piece| self.full[self.links[piece]]) {
@@ -60,7 +60,7 @@ impl<'a> CheckedPieces<'a> {
 
     /// Each piece, with its link, in an order that its file does not decide: pieces of an earlier run are read from their
     /// files, with vertices in another order, and the last digits of what is computed depend on that.
-    pub fn in_order(&self) -> Vec<(usize, Mesh)> {
+    fn in_order(&self) -> Vec<(usize, Mesh)> {
         let pieces = self.pieces.iter().flatten().zip(&self.links);
         pieces.map(|(piece, link)| (*link, in_order(&piece.mesh))).collect()
     }

@@ -186,7 +186,7 @@ pub(super) struct Product<T> {
 
 impl<T> Product<T> {
     /// What a stage returned. Without it, `load` reads it from the URDD in `root`.
-    pub fn new(made: Option<T>, kind: ModuleKind, root: Root, load: Load<T>) -> Self {
+    fn new(made: Option<T>, kind: ModuleKind, root: Root, load: Load<T>) -> Self {
         let known = made.map_or_else(OnceLock::new, OnceLock::from);
         Product { known, kind, root, load }
     }

@@ -4,12 +4,14 @@ use std::collections::HashSet;
 
 use nalgebra::Isometry3;
 
-use super::{inertia, surface};
 use crate::gains::positive;
 use crate::meshes::{Looks, looks};
 use crate::names::last;
 use crate::shapes::thick;
-use crate::{ExportError, FlatShapes, MeshFiles, MeshFormat, Moves, Note, Shape, Solid, Subject};
+use crate::{
+    ExportError, FlatShapes, MeshFiles, MeshFormat, Moves, Note, Shape, Solid, Subject, inertia,
+    meshes,
+};
 use urdd_document::robot::Joint;
 use urdd_format::urdf::{Joint as Source, JointType};
 use urdd_geometry::primitives::Primitive;
@@ -135,7 +137,7 @@ impl<'a> Bodies<'a> {
         element.extend(site(subject, self.subject.options.chosen.sensors, link));
         element.extend(std::mem::take(&mut self.sites[link]));
         for (mut look, place) in std::mem::take(&mut self.looks.meshes[link]).into_iter().zip(0..) {
-            if !surface::complete(&mut look.part.mesh) {
+            if !meshes::complete(&mut look.part.mesh) {
                 self.invisible.push(subject.links[link].clone());
                 continue;
             }
@@ -168,14 +170,14 @@ impl<'a> Bodies<'a> {
         let name = geom_name(&self.subject.links[link], shape.number);
         let geom = Element::new("geom").with("name", name).with("class", "collision");
         Ok(match shape.solid {
-            Solid::Convex(mesh) | Solid::Mesh(mesh) if surface::is_flat(&mesh) => {
+            Solid::Convex(mesh) | Solid::Mesh(mesh) if meshes::is_flat(&mesh) => {
                 let (pose, cuboid) = self.flat.cuboid(&mesh, shape.number, link, &mut self.notes);
                 primitive(geom, &pose, cuboid)
             }
             Solid::Convex(mesh) | Solid::Mesh(mesh) => {
                 let what = format!("piece_{}", shape.number);
                 let format =
-                    if surface::fits_stl(&mesh) { MeshFormat::Stl } else { MeshFormat::Obj };
+                    if meshes::fits_stl(&mesh) { MeshFormat::Stl } else { MeshFormat::Obj };
                 let path = self.files.add(link, &what, mesh, format)?;
                 let asset = self.asset(path, format);
                 geom.with("type", "mesh").with("mesh", asset)

@@ -144,7 +144,7 @@ pub(super) struct Hardware {
 impl Hardware {
     /// That of the source. A joint without any takes positions; a group of continuous joints that is no chain, such as
     /// wheels, takes velocities.
-    pub fn new(subject: &Subject, setup: &Setup, groups: &[Vec<usize>]) -> Self {
+    fn new(subject: &Subject, setup: &Setup, groups: &[Vec<usize>]) -> Self {
         let all = &subject.view.joints;
         let mut joints =
             vec![Interfaces { commands: [true, false, false], tells_velocity: true }; all.len()];

@@ -72,7 +72,7 @@ pub(super) fn path_of_shape(link: &str, piece: usize) -> String {
 }
 
 /// The names of the prims of joints.
-pub(in super::super) fn names_of_joints(joints: &[String]) -> Vec<String> {
+pub(crate) fn names_of_joints(joints: &[String]) -> Vec<String> {
     names(joints, &mut Taken::default(), &mut Vec::new())
 }
 

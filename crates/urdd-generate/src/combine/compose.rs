@@ -52,7 +52,7 @@ impl Member<'_> {
         links.filter(|(idx, _)| self.trim.keeps_link(*idx)).map(|(_, link)| link)
     }
 
-    pub fn kept_joints(&self) -> impl Iterator<Item = &Joint> {
+    fn kept_joints(&self) -> impl Iterator<Item = &Joint> {
         let joints = self.loaded.robot.joints.iter().enumerate();
         joints.filter(|(idx, _)| self.trim.keeps_joint(*idx)).map(|(_, joint)| joint)
     }

@@ -280,7 +280,7 @@ fn sphere_lists(root: &Root, document: &Value) -> Result<Vec<SphereList>, Fault>
 }
 
 /// A module with decisions, in a folder that is to be replaced.
-pub(super) struct Decided<'a> {
+struct Decided<'a> {
     pub folder: &'a Path,
     pub kind: ModuleKind,
     /// What the decisions are, for messages.

@@ -348,7 +348,7 @@ fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n str>) -> 
 const ROUNDING: f64 = 1e-14;
 
 /// The polynomial in m q + o as one in q: its constant and coefficients.
-pub(super) fn substituted([a, b, c, d]: [f64; 4], m: f64, o: f64) -> (f64, [f64; 4]) {
+fn substituted([a, b, c, d]: [f64; 4], m: f64, o: f64) -> (f64, [f64; 4]) {
     let coefficients = [
         m * (a + o * (2.0 * b + o * (3.0 * c + o * 4.0 * d))),
         m * m * (b + o * (3.0 * c + o * 6.0 * d)),
@@ -359,7 +359,7 @@ pub(super) fn substituted([a, b, c, d]: [f64; 4], m: f64, o: f64) -> (f64, [f64;
 }
 
 /// What is added up for a coupling; of each number, the sum and the sum of the absolute values.
-pub(super) struct Terms {
+struct Terms {
     constant: [f64; 2],
     terms: Vec<(CouplingTerm, [f64; 4])>,
 }
@@ -369,7 +369,7 @@ impl Terms {
         Terms { constant: [constant, constant.abs()], terms: Vec::new() }
     }
 
-    pub(super) fn add_constant(&mut self, constant: f64, size: f64) {
+    fn add_constant(&mut self, constant: f64, size: f64) {
         self.constant[0] += constant;
         self.constant[1] += size;
     }

@@ -249,7 +249,7 @@ impl<'a> Notes<'a> {
 }
 
 /// File names relative to `meshes/`, with forward slashes.
-pub(crate) struct Layout {
+struct Layout {
     names: BTreeMap<PathBuf, String>,
 }
 

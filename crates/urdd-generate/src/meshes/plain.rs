@@ -215,7 +215,7 @@ const LEAST_WIDTH: f64 = 4e-6;
 
 /// Counts the triangles of links before they are built: even a tiny URDF can reference a mesh or a sphere many times.
 #[derive(Debug, Default)]
-pub(crate) struct TriangleBudget(AtomicUsize);
+struct TriangleBudget(AtomicUsize);
 
 impl TriangleBudget {
     /// Adds the triangles of a link. Returns whether all links so far are within the budget.
@@ -242,7 +242,7 @@ impl TriangleBudget {
 }
 
 /// Refuses a link whose shape would have no width in its mesh files.
-pub(crate) fn check_resolved(link: &str, parts: &[Part]) -> Result<(), Fault> {
+fn check_resolved(link: &str, parts: &[Part]) -> Result<(), Fault> {
     let vertices = || parts.iter().flat_map(|part| &part.mesh.vertices);
     let mut largest = 0.0_f64;
     for vertex in vertices() {
