@@ -19,7 +19,6 @@ use urdd_document::robot::{Inertial as InertialView, Joint as View, Link as View
 use urdd_format::urdf::{Axis, Inertia, Inertial, Joint, JointType, Link, Mass, UrdfModule};
 use urdd_kinematics::rotation::unit_axis;
 
-/// A robot as it is exported.
 pub(super) struct Arranged {
     pub urdf: UrdfModule,
     pub structure: Structure,
@@ -172,7 +171,6 @@ fn shift(
     }
 }
 
-/// Moves what is in a link.
 pub(super) fn place(link: &mut Link, view: &ViewOfLink, by: &Isometry3<f64>) {
     if let Some((inertial, view)) = link.inertial.as_mut().zip(view.inertial.as_ref()) {
         inertial.origin = Some(origin(&(by * view.origin.motion())));
@@ -187,7 +185,6 @@ pub(super) fn place(link: &mut Link, view: &ViewOfLink, by: &Isometry3<f64>) {
 
 const NEGATIVE: &str = "its mass is negative; in the link that it is joined with, it counts as 0 kg, and its moments of inertia stay";
 
-/// Joins links.
 pub(super) fn merge(
     urdf: &mut UrdfModule,
     structure: &Structure,

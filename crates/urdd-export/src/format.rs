@@ -54,7 +54,6 @@ impl Format {
         matches!(self, Format::Urdf | Format::UrdfPlus | Format::ExtendedUrdf)
     }
 
-    /// Whether its shapes are fitted spheres.
     pub(super) fn has_spheres(self) -> bool {
         matches!(self, Format::Curobo | Format::Foam | Format::Spherized)
     }
@@ -82,7 +81,7 @@ impl Ros {
     }
 }
 
-/// A limit that MoveIt needs of each joint that it moves.
+/// A limit that MoveIt needs of each joint that it moves, in the order of a joint's limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Limited {
     /// Of velocity.
@@ -112,14 +111,6 @@ impl Limited {
             Limited::Acceleration => {
                 "`acceleration` into `[limits]` of the file of `urdd export init`, or limits into config/joint_limits.yaml"
             }
-        }
-    }
-
-    /// Its index among the limits of a joint: velocity, acceleration and jerk.
-    pub(super) fn index(self) -> usize {
-        match self {
-            Limited::Velocity => 0,
-            Limited::Acceleration => 1,
         }
     }
 }

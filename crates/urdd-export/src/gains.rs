@@ -68,7 +68,6 @@ pub(super) fn gains(
     Ok((all, said))
 }
 
-/// A value above 0.
 pub(super) fn positive(value: Option<f64>) -> Option<f64> {
     value.filter(|value| *value > 0.0)
 }

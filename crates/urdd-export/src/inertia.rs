@@ -58,7 +58,6 @@ pub(super) fn tensor([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Matrix3<f64> {
     Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
 
-/// The mean of the moments of inertia.
 pub(super) fn mean([xx, _, _, yy, _, zz]: [f64; 6]) -> f64 {
     (xx + yy + zz) / 3.0
 }
@@ -114,7 +113,7 @@ const NO_MASS: &str =
     "it moves without mass, which MuJoCo refuses; 1e-9 kg and 1e-9 kg m² are assumed";
 
 /// The mass and inertia of a body.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mass {
     pub mass: f64,
     pub centre: [f64; 3],
@@ -158,7 +157,7 @@ pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option
             continue;
         };
         note(link, if weight(&link) > MIN_VALUE { NO_INERTIA } else { NO_MASS });
-        masses[link].get_or_insert(Mass::NONE).raise();
+        masses[link].get_or_insert_default().raise();
     }
     let elements = masses.into_iter().map(|mass| mass.map(Mass::element));
     (elements.collect(), balanced)
@@ -205,16 +204,6 @@ pub fn mass(inertial: &Inertial) -> (Option<Mass>, Option<Odd>) {
 }
 
 impl Mass {
-    pub const NONE: Mass = Mass {
-        mass: 0.0,
-        centre: [0.0; 3],
-        moments: Vector3::new(0.0, 0.0, 0.0),
-        axes: Rotation3::from_matrix_unchecked(Matrix3::new(
-            1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0,
-        )),
-        full: None,
-    };
-
     /// Whether MuJoCo accepts it for a moving body.
     pub fn is_enough(&self) -> bool {
         self.mass > MIN_VALUE && self.moments.min() > MIN_VALUE

@@ -142,7 +142,6 @@ impl Closing<'_> {
     }
 }
 
-/// The loops of a robot.
 pub(super) fn closings<'s>(
     subject: &'s Subject,
     left_out: &mut LeftOut,
@@ -207,7 +206,6 @@ pub(super) fn joints_of_dofs(subject: &Subject) -> Result<Vec<(Option<usize>, bo
     Ok(names.zip(free_dofs(subject)?).collect())
 }
 
-/// Whether each DOF moves freely, by the robot's loops.
 fn free_dofs(subject: &Subject) -> Result<Vec<bool>, ExportError> {
     let mut free = vec![false; subject.robot.dof_names()?.len()];
     for dof in subject.robot.loops()?.iter().flat_map(|module| &module.independent_dof_idxs) {
@@ -218,7 +216,6 @@ fn free_dofs(subject: &Subject) -> Result<Vec<bool>, ExportError> {
     Ok(free)
 }
 
-/// Whether a joint's DOFs move freely.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Freedom {
     pub any: bool,

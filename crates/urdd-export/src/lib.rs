@@ -77,8 +77,21 @@ mod usd;
 mod xacro;
 #[doc(hidden)]
 pub mod yaml;
+// What most files use.
 
+use gains::Gains;
+use layout::Layout;
+use meshes::{FlatShapes, MeshFiles, MeshFormat, Painted};
+use names::{Moves, Taken};
+use output::Files;
+use pairs::LinkPair;
+use setup::Members;
+use shapes::{Shape, Solid};
+use stand::Stand;
+use structure::Structure;
+use subject::Subject;
 use urdd_robot::Robot;
+use yaml::Yaml;
 
 pub use carried::carried_table;
 pub use choices::{CHOICES, Choice, ChoiceError, Choices, KINDS, Kind, REASONS};
@@ -102,20 +115,6 @@ pub use subject::{Misfit, Options};
 pub use urdd_directory::export_toml::ActuatorKind;
 pub use urdd_format::word::{UnknownWord, Word};
 pub use urdd_spheres::model::{Sphere, SphereList};
-
-// What most files use.
-use gains::Gains;
-use layout::Layout;
-use meshes::{FlatShapes, MeshFiles, MeshFormat, Painted};
-use names::{Moves, Taken};
-use output::Files;
-use pairs::LinkPair;
-use setup::Members;
-use shapes::{Shape, Solid};
-use stand::Stand;
-use structure::Structure;
-use subject::Subject;
-use yaml::Yaml;
 
 /// Exports a robot.
 ///

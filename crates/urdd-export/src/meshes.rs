@@ -18,7 +18,6 @@ use urdd_geometry::read::Part;
 use urdd_geometry::write::{WriteError, obj, stl};
 use urdd_robot::{LinkVisual, RobotError, ShapeKind, SourceShape};
 
-/// A mesh file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum MeshFormat {
     Stl,
@@ -139,7 +138,6 @@ pub(super) struct Look {
     image: Option<Image>,
 }
 
-/// The visual geometry of all links, by link.
 pub(super) struct Looks {
     pub meshes: Vec<Vec<Look>>,
     /// Those of the source, where its shapes are asked for.
@@ -169,7 +167,9 @@ pub(super) fn looks(subject: &Subject, notes: &mut Vec<Note>) -> Result<Looks, E
         };
         let textured = textured.remove(&visual.link).unwrap_or_default();
         for (mut part, image) in images.painted(visual.parts, textured)? {
-            subject.layout.place_mesh(visual.link, &mut part.mesh);
+            if let Some(place) = subject.layout.content.get(visual.link) {
+                part.mesh.transform(&place.pose.to_homogeneous());
+            }
             let name = |part: &Part| part.texture.as_ref().map(|texture| texture.name.clone());
             let is_same = |known: &Part| known.color == part.color && name(known) == name(&part);
             match of_link.iter_mut().find(|look| is_same(&look.part)) {

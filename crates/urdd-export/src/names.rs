@@ -192,7 +192,6 @@ impl Taken {
     }
 }
 
-/// How a part of a joint moves.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Moves {
     /// Along an axis in the joint's frame.
@@ -234,7 +233,6 @@ fn parts(joint: &View, own: &str, taken: &mut Taken) -> Vec<(String, Moves)> {
 
 /// What the joints of a robot are called in a file.
 pub(super) struct JointNames {
-    /// By joint.
     pub joints: Vec<String>,
     /// By joint, the simple joints that one of several DOFs is a chain of.
     pub parts: Vec<Vec<(String, Moves)>>,

@@ -30,7 +30,6 @@ const HULLS: &str = "meshes that are not convex or not closed, which are written
 const DRAKES: &str = "meshes that are not convex or not closed, which are written as they are: in contact, Drake takes their convex hulls, and pairs are judged by these";
 const AS_THEY_ARE: &str = "meshes that are not convex or not closed, which are written as they are";
 
-/// The collision geometry of the source.
 pub(super) struct SourceShapes {
     /// In link order.
     pub by_link: Vec<Vec<Shape>>,

@@ -24,7 +24,6 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     Ok(Export::of(text, Vec::new(), notes))
 }
 
-/// Adds the pairs that need no check.
 pub(super) fn push_pairs(subject: &Subject, robot: &mut Element) {
     robot.extend(subject.disabled().map(|pair| disabled(subject, pair)));
 }
@@ -52,7 +51,6 @@ fn reason(subject: &Subject, pair: &LinkPair) -> &'static str {
     }
 }
 
-/// The basis of the reasons: the shapes and the number of samples.
 pub(super) fn basis(subject: &Subject) -> Result<String, RobotError> {
     let shapes = subject.shapes;
     Ok(match subject.robot.num_samples()? {

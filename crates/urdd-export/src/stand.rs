@@ -24,7 +24,6 @@ pub fn base_pose(
     Stand::new(&subject, false)?.base(&subject, name, configuration).map(Some)
 }
 
-/// Where the robot stands.
 pub(super) struct Stand {
     /// Height of a free base in the default configuration, m: the lowest shape touches z = 0. 0 without a free base.
     pub base_height: f64,

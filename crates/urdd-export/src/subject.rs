@@ -46,9 +46,7 @@ pub(super) struct Subject<'a> {
     pub given: Option<Cow<'a, Setup>>,
     /// Whether the root link moves freely.
     pub is_floating: bool,
-    /// The robot of the URDD.
     pub described: UrdfModule,
-    /// The robot that is exported.
     pub urdf: UrdfModule,
     pub structure: Structure,
     /// Where its links are in those of `robot`.
@@ -58,13 +56,11 @@ pub(super) struct Subject<'a> {
     pub names: JointNames,
     /// What the source says where URDF defines nothing.
     pub other_parts: OtherParts,
-    /// Names of links, in link order.
     pub links: Vec<String>,
     /// Empty for formats without pairs.
     pub pairs: Vec<LinkPair>,
     /// Of what the shapes are made.
     pub shape_notes: Vec<Note>,
-    /// What the format cannot carry of this robot.
     pub lost: Option<Note>,
 }
 
@@ -251,7 +247,6 @@ impl<'a> Subject<'a> {
         Ok(dofs.zip(configuration.iter().copied()).collect())
     }
 
-    /// The pairs that need no collision check.
     pub fn disabled(&self) -> impl Iterator<Item = &LinkPair> {
         self.pairs.iter().filter(|pair| pair.disabled)
     }

@@ -193,10 +193,7 @@ const FRAME: usize = 12;
 /// nothing of pixels, a wrong checksum, or data after the last pixel, which other readers pass over. The image was decoded
 /// before: it is as large as it says.
 fn for_mujoco(bytes: &[u8]) -> Result<Vec<u8>, DecodingError> {
-    match stripped(bytes) {
-        Some(bytes) => Ok(bytes),
-        None => written_anew(bytes),
-    }
+    stripped(bytes).map_or_else(|| written_anew(bytes), Ok)
 }
 
 /// The image without chunks that say nothing of pixels; `None` if its pixels have to be written anew.

@@ -24,13 +24,11 @@ use urdd_spheres::module;
 use urdd_spheres::module::{Given, NoSpheres};
 use urdd_spheres::samples::{Moves, Pairs};
 
-/// The pieces of all links.
 struct CheckedPieces<'a> {
     pub pieces: &'a [Vec<WrittenMesh>],
     pub skips: &'a LinkShapesSkipsModule,
     /// The place of each link in the matrix over full shapes.
     full: Vec<Option<usize>>,
-    /// The link of each piece.
     links: Vec<usize>,
 }
 

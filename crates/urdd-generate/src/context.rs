@@ -40,10 +40,8 @@ pub(crate) struct Context<'a> {
     /// The configuration in which pairs that touch are skipped, in place of the default configuration: a named one, or the
     /// closed one of a robot with loops.
     pub reference: Option<NamedConfiguration>,
-    /// Spheres that a person gave.
     pub spheres: Vec<SphereList>,
     pub loops: Option<LoopsModule>,
-    /// What is to say of them.
     pub loop_notes: Vec<Note>,
 }
 

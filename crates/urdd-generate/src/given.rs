@@ -91,7 +91,6 @@ pub(super) fn write_setup(imported: &Imported, target: &Path) -> Option<Note> {
     })
 }
 
-/// The user's named configurations, for this robot.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Named {
     pub configurations: Vec<NamedConfiguration>,

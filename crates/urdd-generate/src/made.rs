@@ -53,7 +53,6 @@ pub(super) fn made(module: &impl Serialize) -> Result<Made> {
     made_with(module, Vec::new(), ())
 }
 
-/// A module with its files and product.
 pub(super) fn made_with<T>(
     module: &impl Serialize,
     files: Vec<MadeFile>,

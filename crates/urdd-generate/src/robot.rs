@@ -161,7 +161,6 @@ pub fn generate_in_memory(
     Ok((written.generated(&context, true), files.files()))
 }
 
-/// The modules and the source of a URDD that is being made.
 struct Written {
     entries: Vec<metadata::Entry>,
     made: Vec<MadeModule>,
@@ -305,7 +304,6 @@ fn check_place(path: Option<&Path>, source: &Source, target: &Path) -> Result<()
     Ok(())
 }
 
-/// Checks that the content of the target may be replaced.
 fn check_target(target: &Path, replaced: Option<&Donor>, settings: &Settings) -> Result<()> {
     let Ok(canonical) = target.canonicalize() else { return Ok(()) };
     let is_empty = fs::read_dir(&canonical).is_ok_and(|mut entries| entries.next().is_none());

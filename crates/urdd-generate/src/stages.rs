@@ -111,7 +111,6 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount>
     Ok(count.unwrap_or_default())
 }
 
-/// The document of a module that was kept.
 fn load_document<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Result<Arc<T>> {
     let read = donor::document(root, kind).map(Arc::new);
     read.map_err(|reason| GenerateError::internal(kind.folder(), reason))

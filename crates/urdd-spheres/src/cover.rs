@@ -16,7 +16,6 @@ use urdd_geometry::vector::{dot, norm, sub};
 /// Maximum number of cuts per requested sphere: some cuts do not add a sphere.
 const CUTS: usize = 4;
 
-/// Spheres per link by default.
 const AUTO: usize = 8;
 
 /// At most so many spheres of each link, or of all, in link order, from the vertices of its pieces; none for a link without
@@ -62,7 +61,6 @@ fn share(links: &mut [Cover], count: usize) {
     }
 }
 
-/// The cells of a link, and the best spheres so far.
 struct Cover {
     cells: Vec<Cell>,
     /// The spheres whose union has the smallest volume.
@@ -171,7 +169,6 @@ fn apart(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     dot(between, between)
 }
 
-/// A convex part.
 #[derive(Debug, Clone)]
 struct Chunk {
     points: Vec<Vector3<f64>>,

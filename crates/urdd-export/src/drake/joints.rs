@@ -30,25 +30,19 @@ const DAMPING: &str = "Drake expects three damping values of a planar joint; it 
 const FRAME: &str = "Drake gives it to the frame of a joint";
 const FLOATING: &str = "Drake allows floating joints only at the world; it is exported as three prismatic joints and a ball joint, with massless links between them";
 
-/// The elements that represent the joints.
 #[derive(Default)]
 pub(super) struct DrakeJoints<'a> {
     /// The names of added links.
     pub links: Vec<String>,
-    /// The frames on links.
     pub frames: Vec<Element>,
-    /// The elements, each with its source joint.
     pub elements: Vec<(Element, &'a Joint)>,
-    /// The names of the joints that an actuator can drive, and those of fixed joints.
     pub driven: Driven,
 }
 
 /// Joint names by whether an actuator can drive them.
 #[derive(Default)]
 pub(super) struct Driven {
-    /// Joints of one DOF.
     pub of_one: Vec<String>,
-    /// Fixed joints.
     pub fixed: Vec<String>,
 }
 
@@ -181,7 +175,6 @@ fn chain(joint: &Joint, parts: &[(String, Moves)]) -> Vec<Joint> {
 const SAP: &str = "ball constraints hold loops in simulation, with the solver SAP: Drake refuses the file for `DiscreteContactApproximation.kTamsi`";
 const WORLD: &str = "Drake's constraints find no `world` in the model";
 
-/// The constraints that hold the loops of a robot.
 pub(super) fn constraints(
     subject: &Subject,
     notes: &mut Vec<Note>,

@@ -110,7 +110,6 @@ pub(super) fn groups(subject: &Subject, taken: &mut Taken) -> Vec<Element> {
     partners.into_iter().map(group).collect()
 }
 
-/// The files, if a package is asked for.
 fn package_files(subject: &Subject) -> Result<Files, ExportError> {
     let (Some(package), Some(file)) = (&subject.options.package, &subject.options.file) else {
         return Ok(Files::new());

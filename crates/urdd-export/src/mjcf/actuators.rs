@@ -12,7 +12,6 @@ use urdd_kinematics::rotation::from_rotation_vector;
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 
-/// The actuators, and a sentence about them.
 pub(super) fn actuators(
     subject: &Subject,
     kind: ActuatorKind,

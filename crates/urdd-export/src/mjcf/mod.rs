@@ -159,7 +159,6 @@ fn equality(subject: &Subject, notes: &mut Vec<Note>) -> Element {
 /// Names of our geoms have a slash: none is called as the floor.
 const SCENE: &str = include_str!("scene.xml.in");
 
-/// The scene that includes a file.
 fn scene(subject: &Subject, file: &str, stand: &Stand) -> Result<Files, ExportError> {
     let stem = file.strip_suffix(".xml").unwrap_or(file);
     let floor = number(stand.floor);
@@ -182,16 +181,13 @@ const INTEGRATOR: &str = "implicit";
 const OTHER_SUM: &str =
     "equality constraints are of one joint, or of one as a polynomial of another";
 
-/// What loops need in a file.
 #[derive(Default)]
 struct Closings {
     /// For each link, its sites.
     pub sites: Vec<Vec<Element>>,
-    /// The constraints.
     pub equalities: Vec<Element>,
 }
 
-/// The constraints of the robot's loops and couplings, with their sites.
 fn closings(subject: &Subject, notes: &mut Vec<Note>) -> Result<Closings, ExportError> {
     let mut made = Closings { sites: vec![Vec::new(); subject.links.len()], ..Closings::default() };
     let mut left_out = LeftOut::default();

@@ -43,7 +43,6 @@ enum Value {
     Flag,
     Opposite,
     Text,
-    /// The elements in it.
     Elements,
 }
 
@@ -310,7 +309,6 @@ const FRAME: &str =
 /// An element that is left out, and why.
 type Fault = (&'static str, &'static str);
 
-/// What became of elements.
 #[derive(Default)]
 pub(super) struct Mended {
     pub faults: BTreeSet<Fault>,
@@ -337,7 +335,6 @@ impl Mended {
         }
     }
 
-    /// Mends what is in an element.
     fn mend_inside(&mut self, element: &mut Element) {
         let has_plugins = !WITHOUT_PLUGINS.contains(&element.name());
         element.retain(|child| {

@@ -24,7 +24,6 @@ const CHAIN: &str =
 const CROSSED: &str = "its lower limit is above its upper one, which SDF refuses; it has no range";
 const AXIS: &str = "its axis is zero, which SDF refuses; it is fixed";
 
-/// The joints of a model.
 #[derive(Default)]
 pub(super) struct Joints {
     pub elements: Vec<Element>,
@@ -117,7 +116,6 @@ pub(super) fn joints(
     Ok(made)
 }
 
-/// A pose, as an element.
 pub(super) fn placed(pose: &Isometry3<f64>) -> Element {
     let rotation = pose.rotation.to_rotation_matrix();
     let mut values = pose.translation.vector.as_slice().to_vec();
@@ -225,7 +223,6 @@ const ROUNDING: f64 = 1e-9;
 
 const LOOPS: &str = "joints that close loops are joints whose child has a parent already: Gazebo Classic holds them, DART in Gazebo leaves them out with a message (gz-physics of 2026-08), and Drake refuses the file: for Drake, export `drake`";
 
-/// The joints that close loops.
 pub(super) fn loops(
     subject: &Subject,
     taken: &mut Taken,

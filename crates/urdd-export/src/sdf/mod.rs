@@ -27,7 +27,8 @@ const WORLD: &str = "the root link is called `world`, which is SDF's own and has
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut notes = Vec::new();
-    let mut model = Element::new("model").with("name", model_name(subject));
+    let name = if subject.urdf.name.is_empty() { "robot" } else { &subject.urdf.name };
+    let mut model = Element::new("model").with("name", name);
     let root = subject.tree.root;
     let is_world = subject.is_world(root);
     let gazebo = Gazebo::new(subject, &mut notes);
@@ -65,14 +66,6 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let what = format!("Collision geometry: {}.", subject.shapes);
     let text = sdf.document(&subject.comments(what, &notes)?);
     Ok(Export::of(text, files, notes))
-}
-
-/// SDF needs a name for a model.
-fn model_name<'a>(subject: &'a Subject) -> &'a str {
-    match subject.urdf.name.as_str() {
-        "" => "robot",
-        name => name,
-    }
 }
 
 /// Mass and moments of inertia of links without them, kg and kg m².
@@ -180,7 +173,6 @@ fn touch(link: &mut Element, collisions: &[String]) {
     }
 }
 
-/// The frame of a link without content.
 fn frame(subject: &Subject, link: usize) -> Element {
     let frame = Element::new("frame").with("name", subject.links[link].as_str());
     let on = subject.tree.parent_link[link].map(|parent| subject.links[parent].as_str());

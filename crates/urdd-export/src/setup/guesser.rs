@@ -8,7 +8,6 @@ use crate::Structure;
 /// The longest finger, m.
 pub(super) const FINGER: f64 = 0.25;
 
-/// What is known while guessing.
 pub(super) struct Guesser<'a> {
     pub structure: &'a Structure,
     pub poses: &'a [Isometry3<f64>],
@@ -263,7 +262,6 @@ fn shared<'n>(names: impl Iterator<Item = &'n str>, known: &[&str]) -> Option<St
     common.filter(|common| !common.is_empty()).map(|common| common.join("_"))
 }
 
-/// Whether a name is that of a palm.
 pub(super) fn is_hand(name: &str) -> bool {
     words(name).iter().any(|word| word == "hand" || word == "palm")
 }

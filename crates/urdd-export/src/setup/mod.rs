@@ -61,7 +61,6 @@ impl<T> Guess<T> {
     }
 }
 
-/// A planning group.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Group {
     pub name: String,
@@ -70,7 +69,6 @@ pub(super) struct Group {
     pub passive: bool,
 }
 
-/// The members of a group.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Members {
     /// The joints between two links; the base is an ancestor of the tip.
@@ -87,9 +85,7 @@ pub(super) struct EndEffector {
     pub name: String,
     /// Its own group.
     pub group: usize,
-    /// The group that carries it.
     pub parent_group: Option<usize>,
-    /// The link that carries it.
     pub parent_link: usize,
 }
 
@@ -136,7 +132,6 @@ pub(super) fn within<'a>(
     Some(found)
 }
 
-/// What is wrong with a group that contains itself.
 pub(super) fn contains_itself(group: &str) -> String {
     format!("the group `{}` contains itself", group.escape_debug())
 }

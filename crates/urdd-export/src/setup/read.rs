@@ -324,7 +324,6 @@ fn advice(message: &str) -> &'static str {
     }
 }
 
-/// A number in a range.
 fn ranged(range: Range, value: Option<&Spanned<f64>>) -> Placed<Option<f64>> {
     let check = |value: &Spanned<f64>| {
         range.check(*value.get_ref()).or_else(|error| wrong(value, error.to_string()))

@@ -29,7 +29,6 @@ use urdd_spheres::{cover, judge};
 
 pub use urdd_spheres::judge::SphereRates;
 
-/// The data of the file.
 struct Model {
     /// The links that have shapes, ascending, with their spheres.
     links: Vec<(usize, Vec<Sphere>)>,
@@ -127,7 +126,6 @@ pub(super) fn level(robot: &Robot, options: &Choices) -> Result<Option<Level>, R
 }
 
 impl Level {
-    /// The spheres of these links.
     pub fn spheres(&self, links: &[usize]) -> Spheres {
         let one = |link: &usize| {
             let own = self.level.spheres[*link].iter();
@@ -150,7 +148,6 @@ impl Level {
         self.level.origin == SphereOrigin::Given
     }
 
-    /// Which spheres these are.
     pub fn said(&self) -> String {
         let origin = if self.is_given() { ", which a person gave" } else { "" };
         format!(
@@ -220,7 +217,6 @@ pub(super) fn checked_pairs(
 /// Maximum number of wrong results that are traced to pairs.
 const TRACED: usize = 2000;
 
-/// The results of an evaluation.
 #[derive(Debug, Default)]
 pub(super) struct Measured {
     /// Rates in configurations throughout the bounds; `None` if no pair is checked.

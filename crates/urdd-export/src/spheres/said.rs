@@ -13,16 +13,12 @@ use urdd_spheres::fitted::Numbers;
 use urdd_spheres::judge::{MAX_FALSE, MAX_MISSED, SphereRates};
 use urdd_spheres::model::{Sphere, distance};
 
-/// Maximum number of pairs of links that are named.
 const NAMED: usize = 10;
 
 /// Distance between the surface of a link and that of its spheres, in metres.
 pub(super) struct Stand {
-    /// Mean absolute distance.
     pub mean: f64,
-    /// Minimum distance.
     pub best: f64,
-    /// Maximum distance.
     pub worst: f64,
     /// Maximum distance outside all spheres; 0 if no point is outside.
     pub outside: f64,
@@ -207,7 +203,6 @@ pub(crate) fn foam(subject: &Subject) -> Result<Export, ExportError> {
     Ok(Export::of(text, Vec::new(), note(&model, subject).into_iter().collect()))
 }
 
-/// URDF with the spheres as collision geometry.
 pub(crate) fn spherized(subject: &Subject) -> Result<Export, ExportError> {
     let model = Model::new(subject)?;
     let mut shapes: Vec<LinkShape> = Vec::new();

@@ -4,8 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::names::{Filters, Paths, mend};
-use super::prim::{Prim, elements, float, floats, wxyz};
+use super::prim::{Filters, Paths, Prim, elements, float, floats, mend, wxyz};
 use crate::gains::positive;
 use crate::joints::{Closing, Followers, moved};
 use crate::names::last;
@@ -27,7 +26,6 @@ const OTHER: &str = "it mimics a joint of another kind, for which Newton's schem
 
 const UNLIMITED: &str = "it mimics a joint, and one of the two has no limits: PhysX couples only joints with limits, so that it moves freely there; Newton couples them";
 
-/// The axes of a generic joint.
 const AXES: [&str; 6] = ["transX", "transY", "transZ", "rotX", "rotY", "rotZ"];
 
 pub(super) struct Joints<'a> {
@@ -42,7 +40,6 @@ pub(super) struct Joints<'a> {
     pub values: HashMap<&'a str, f64>,
 }
 
-/// How a joint moves.
 enum Motion {
     /// Not at all, at that position of a joint of one DOF.
     Fixed(f64),
@@ -103,7 +100,6 @@ impl Joints<'_> {
         }
     }
 
-    /// The prim of a joint.
     pub fn prim(&self, index: usize, notes: &mut Vec<Note>) -> Prim {
         let subject = self.subject;
         let (joint, name) = (&subject.view.joints[index], last(&self.paths.joints[index]));

@@ -1,25 +1,23 @@
 //! USD, for Isaac, Newton and Omniverse: one asset, a robot as rigid bodies under one articulation.
 //!
 //! Links are prims side by side, where they are in the default configuration. Joints say where they are in their two links.
-//! USD has binary32 for these, degrees for angles, and no names but those of `names`. Newton's and PhysX' own
+//! USD has binary32 for these, degrees for angles, and no names but those of `prim`. Newton's and PhysX' own
 //! attributes say what UsdPhysics has no words for; other programs pass over them.
 
 mod joints;
-pub(super) mod names;
-mod prim;
+pub(super) mod prim;
 mod shapes;
 
 use nalgebra::{Isometry3, UnitQuaternion};
 
 use crate::gains::gains;
-use crate::inertia::{Mass, Odd, mass};
+use crate::inertia::{Odd, mass};
 use crate::joints::{Followers, LeftOut, closings};
 use crate::meshes::looks;
 use crate::names::last;
 use crate::{Export, ExportError, MeshFiles, Note, Stand, Subject};
 use joints::Joints;
-use names::{Filters, Paths};
-use prim::{Prim, float, floats, wxyz};
+use prim::{Filters, Paths, Prim, float, floats, wxyz};
 use shapes::Materials;
 
 const WORLD: &str = "the root link is called `world`, which never moves; the base is not free";
@@ -94,7 +92,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     }
     let mut taken = paths.taken_joints.clone();
     for closing in &closings {
-        let name = taken.free(names::mend(&closing.name));
+        let name = taken.free(prim::mend(&closing.name));
         match joints::closing_prim(subject, &paths, name, closing) {
             Some(prim) => scope.push(prim),
             None => left_out.of_loop(&closing.of.name, joints::UNIVERSAL),
@@ -153,7 +151,7 @@ fn add_masses(subject: &Subject, links: &mut [Prim], notes: &mut Vec<Note>) {
         let (found, odd) = view.inertial.as_ref().map_or((None, None), mass);
         let note = |odd| Note::Inertia { link: view.name.clone(), what: words(odd) };
         notes.extend(odd.map(note));
-        let mut own = found.unwrap_or(Mass::NONE);
+        let mut own = found.unwrap_or_default();
         if !own.is_enough() {
             if own.mass <= 0.0 {
                 own.mass = LEAST_MASS;

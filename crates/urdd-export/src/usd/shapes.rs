@@ -7,8 +7,10 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
-use super::names::{COLLISIONS, Filters, Paths, VISUAL_PRIMITIVES, VISUALS, path_of_shape};
-use super::prim::{Prim, array, asset, doubles, float, floats, wxyz};
+use super::prim::{
+    COLLISIONS, Filters, Paths, Prim, VISUAL_PRIMITIVES, VISUALS, array, asset, doubles, float,
+    floats, path_of_shape, wxyz,
+};
 use crate::meshes::{Look, Looks, is_flat};
 use crate::names::last;
 use crate::shapes::thick;
@@ -187,7 +189,6 @@ fn add_primitives(primitives: &[Vec<Painted>], links: &mut [Prim], materials: &m
     }
 }
 
-/// The mesh of a link's looks.
 fn visuals(looks: &[Look], images: &[Option<String>], materials: &mut Materials) -> Prim {
     let mut mesh = Mesh::default();
     let mut uv = Vec::new();

@@ -27,7 +27,6 @@ pub(super) struct Member<'a> {
 }
 
 impl Member<'_> {
-    /// A name of the part as it appears in the combined robot.
     pub fn renamed(&self, name: &str) -> String {
         format!("{}{name}", self.part.prefix.text)
     }
@@ -262,7 +261,6 @@ fn joint(described: &Attachment, parent: &str, child: &str) -> String {
     text + "  </joint>\n"
 }
 
-/// Builds the `composition_module`.
 pub(super) fn composition(
     recipe: &Recipe,
     parts: &[Member],

@@ -28,7 +28,6 @@ use urdd_source::{MAX_SOURCE_BYTES, named, read_urdf};
 use urdd_xml::element::{Edit, apply, attribute, children};
 use urdd_xml::{Document, Kind, parse};
 
-/// The URDF in a legacy URDD.
 pub(super) struct Carried {
     pub file: String,
     pub found: Vec<u8>,
@@ -140,7 +139,6 @@ fn plain_edits(document: &Document, plain: &BTreeMap<usize, String>) -> Vec<Edit
     edits
 }
 
-/// The name of the world link in the published robots.
 const WORLD: &str = "combined_robot_world";
 
 impl Recipe {
@@ -205,7 +203,6 @@ fn is_folder_name(source: &Path, beside: &Path) -> bool {
     is_name && !source.is_file()
 }
 
-/// The document of a module, if it is there.
 fn module_of<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Result<Option<T>, PartFault> {
     let path = format!("{}/module.json", kind.folder());
     if root.open_file(&path).is_err() {

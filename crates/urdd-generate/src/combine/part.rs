@@ -39,7 +39,6 @@ pub(super) struct Loaded {
     /// The URDD: the source, or the one generated from it.
     pub root: Root,
     pub text: String,
-    /// The robot in that text.
     pub robot: UrdfModule,
     pub links: HashMap<String, usize>,
     pub joints: HashMap<String, usize>,
@@ -56,7 +55,6 @@ pub(super) struct Loaded {
     /// Links with the plain mesh of a legacy URDD because the original is missing.
     pub plain_meshes: Vec<String>,
     pub modules: Vec<String>,
-    /// How many spheres a person gave to it.
     pub given_spheres: usize,
 }
 
@@ -67,7 +65,6 @@ pub(super) struct MeshFile {
     pub side_files: Vec<String>,
 }
 
-/// The user's decisions about skips.
 #[derive(Debug, Deserialize)]
 pub(super) struct Skips {
     #[serde(rename = "skipped_reasons")]

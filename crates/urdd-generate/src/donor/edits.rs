@@ -38,12 +38,10 @@ pub(crate) struct Decisions {
     pub skipped_reasons: Vec<SkippedReason>,
     pub edits: Vec<SkipEdit>,
     pub configurations: Vec<ConfigurationEdit>,
-    /// Spheres that were given.
     pub spheres: Vec<SphereList>,
 }
 
 impl Default for Decisions {
-    /// The defaults: the usual reasons, and nothing else.
     fn default() -> Self {
         Decisions {
             skipped_reasons: SkippedReason::USUAL.to_vec(),
@@ -316,7 +314,6 @@ impl Decided<'_> {
         Ok(Some(decisions))
     }
 
-    /// The document; `None` if there is no such module.
     fn document(&self, root: &Root) -> Result<Option<Document>> {
         let (json_path, yaml_path) = (self.path("module.json"), self.path("module.yaml"));
         let bytes = match root.read(&json_path, MAX_DOCUMENT_BYTES) {

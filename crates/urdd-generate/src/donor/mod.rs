@@ -119,7 +119,6 @@ pub(super) fn document<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Re
     serde_json::from_str(text).map_err(|error| error.to_string())
 }
 
-/// The files that every module has.
 const MODULE_FILES: [&str; 3] = ["VERSION", "module.json", "module.yaml"];
 
 /// Links or copies the files to keep from `folder` into `root`.

@@ -22,7 +22,6 @@ use urdd_source::note::{Note, NoteKind};
 
 /// What the reference configuration of loops is called in edits of skips.
 const CLOSED: &str = "closed loops";
-/// Number of closed samples.
 const SAMPLES: u32 = 16;
 /// Most work for the loops of a robot, in the unit of [`Loops::work`]: some seconds.
 const MOST_SPENT: u64 = 20_000_000_000;

@@ -332,7 +332,6 @@ fn four(coefficients: &[f64]) -> Option<[f64; 4]> {
     (!coefficients.is_empty() && four.iter().all(|x| x.is_finite())).then_some(four)
 }
 
-/// Some names, and how many others there are.
 fn named(names: &[&str]) -> String {
     first_names(names.iter().map(|name| Short::of(name)))
 }

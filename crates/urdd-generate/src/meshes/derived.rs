@@ -154,7 +154,6 @@ fn solids(
     links.collect()
 }
 
-/// Names and writes the solids of each link.
 fn write(
     context: &Context,
     kind: ModuleKind,

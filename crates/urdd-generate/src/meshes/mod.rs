@@ -97,9 +97,7 @@ impl WrittenMesh {
     }
 }
 
-/// A mesh of each link that has one.
 pub(crate) type Meshes = Vec<Option<WrittenMesh>>;
-/// The pieces of each link.
 pub(crate) type Pieces = Vec<Vec<WrittenMesh>>;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -29,7 +29,6 @@ pub(crate) struct OriginalMeshes {
     pub module: OriginalMeshesModule,
     /// The content of each usable mesh file, by its path in the URDD.
     pub scenes: BTreeMap<String, Arc<Scene>>,
-    /// How the mesh references were resolved.
     pub count: MeshCount,
 }
 
@@ -318,7 +317,6 @@ impl Layout {
         Layout { names }
     }
 
-    /// The stored name of one of the files.
     pub(crate) fn name(&self, file: &Path) -> Option<&str> {
         self.names.get(file).map(String::as_str)
     }

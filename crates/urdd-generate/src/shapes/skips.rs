@@ -26,7 +26,6 @@ use urdd_source::note::{Note, NoteKind};
 
 type Reasons = Vec<Vec<SkipReason>>;
 
-/// Builds the module.
 pub(crate) fn simple_skips(
     context: &Context,
     shapes: &Shapes,
@@ -95,7 +94,6 @@ fn reasons(
     all.clone().map(|i| all.clone().map(|j| reason(i, j)).collect()).collect()
 }
 
-/// Whether each pair is a simple skip.
 fn skips(reasons: &Reasons) -> Vec<Vec<bool>> {
     reasons.iter().map(|row| row.iter().map(|reason| reason.is_simple()).collect()).collect()
 }
