@@ -64,9 +64,7 @@ pub(crate) fn setup(
     let links = links.chain(setup.end_effectors.iter_mut().map(|end| &mut end.value.parent_link));
     links.for_each(|link| *link = layout.frame(*link));
     for group in &mut setup.groups {
-        let Members::Chain { base, tip } = group.value.members else {
-            continue;
-        };
+        let Members::Chain { base, tip } = group.value.members else { continue };
         let moving = |of: &Structure, base: usize, tip: usize| {
             let mut joints = of.between(base, tip);
             joints.retain(|joint| of.view.joints[*joint].num_dofs() > 0);

@@ -88,20 +88,17 @@ pub fn joint_groups_of_srdf(robot: &Robot, text: &str) -> Result<Vec<JointGroup>
     let name = |node: &Node| node.attribute("name").unwrap_or_default().to_owned();
     let names: Vec<String> = tables.iter().map(name).collect();
     let reader = GroupReader { structure: &structure, names: &names, srdf: &srdf };
-    let mut own = Vec::new();
-    for table in &tables {
-        own.push(reader.members(*table)?);
-    }
-    let all = own.iter().enumerate();
-    all.map(|(place, _)| {
+    let own = tables.iter().map(|table| reader.members(*table));
+    let own = own.collect::<Result<Vec<_>, ReadError>>()?;
+    let groups = (0..own.len()).map(|place| {
         let inner = |group: usize| own[group].1.as_slice();
-        let groups = within(place, own.len(), inner)
+        let all = within(place, own.len(), inner)
             .ok_or_else(|| srdf.wrong(tables[place], contains_itself(&names[place])))?;
-        let joints = groups.iter().flat_map(|group| own[*group].0.iter().copied());
+        let joints = all.iter().flat_map(|group| own[*group].0.iter().copied());
         let joints: BTreeSet<usize> = joints.collect();
         Ok(JointGroup::of(&names[place], joints, robot, &structure)?)
-    })
-    .collect()
+    });
+    groups.collect()
 }
 
 struct GroupReader<'a, 't> {

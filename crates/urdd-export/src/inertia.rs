@@ -153,9 +153,7 @@ pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option
         // The heaviest link, the first one on ties.
         let heavier = |a: &usize, b: &usize| weight(a).total_cmp(&weight(b)).then(b.cmp(a));
         let bodies = group.links.iter().filter(|link| !subject.is_frame(**link));
-        let Some(&link) = bodies.max_by(|a, b| heavier(a, b)) else {
-            continue;
-        };
+        let Some(&link) = bodies.max_by(|a, b| heavier(a, b)) else { continue };
         note(link, if weight(&link) > MIN_VALUE { NO_INERTIA } else { NO_MASS });
         masses[link].get_or_insert_default().raise();
     }

@@ -87,6 +87,20 @@ fn standing(joint: Joint, view: &View, position: f64) -> Joint {
     }
 }
 
+/// The limits of a joint's position; `None`, with a note, where the lower one is above the upper one.
+pub(super) fn range(
+    joint: &View,
+    crossed: &'static str,
+    notes: &mut Vec<Note>,
+) -> Option<(f64, f64)> {
+    let (lower, upper) = joint.position_limits()?;
+    if lower > upper {
+        notes.push(Note::joint(&joint.name, crossed));
+        return None;
+    }
+    Some((lower, upper))
+}
+
 /// The pose of a joint of one DOF at a position, in its frame.
 pub(super) fn moved(joint: &View, position: f64) -> Isometry3<f64> {
     match (unit_axis(joint.axis), joint.joint_type) {

@@ -43,15 +43,13 @@ impl MeshFormat {
 /// Files by path. Equal content shares one file.
 pub(super) struct MeshFiles<'a> {
     subject: &'a Subject<'a>,
-    folder: &'a str,
     names: FileNames,
     by_content: HashMap<Vec<u8>, String>,
 }
 
 impl<'a> MeshFiles<'a> {
     pub fn new(subject: &'a Subject<'a>) -> Self {
-        let (names, by_content) = (FileNames::default(), HashMap::new());
-        MeshFiles { subject, folder: &subject.options.mesh_folder, names, by_content }
+        MeshFiles { subject, names: FileNames::default(), by_content: HashMap::new() }
     }
 
     /// Adds a mesh and returns its file's path, relative to the text.
@@ -116,7 +114,7 @@ impl<'a> MeshFiles<'a> {
             return path.clone();
         }
         let name = self.names.of(&format!("{}_{what}", self.subject.links[link]));
-        let folder = self.folder;
+        let folder = &self.subject.options.mesh_folder;
         let slash = if folder.is_empty() { "" } else { "/" };
         let path = format!("{folder}{slash}{name}.{ending}");
         self.by_content.insert(bytes, path.clone());
@@ -162,9 +160,7 @@ pub(super) fn looks(subject: &Subject, notes: &mut Vec<Note>) -> Result<Looks, E
         textured.entry(visual.link).or_default().extend(visual.parts);
     }
     for visual in visuals {
-        let Some(of_link) = looks.get_mut(subject.layout.body(visual.link)) else {
-            continue;
-        };
+        let Some(of_link) = looks.get_mut(subject.layout.body(visual.link)) else { continue };
         let textured = textured.remove(&visual.link).unwrap_or_default();
         for (mut part, image) in images.painted(visual.parts, textured)? {
             if let Some(place) = subject.layout.content.get(visual.link) {
@@ -267,9 +263,7 @@ pub fn complete(mesh: &mut Mesh) -> bool {
 pub fn is_flat(mesh: &Mesh) -> bool {
     let mut rounded = mesh.clone();
     rounded.round_to_f32();
-    let Ok(hull) = ConvexHull::new(&rounded.vertices) else {
-        return true;
-    };
+    let Ok(hull) = ConvexHull::new(&rounded.vertices) else { return true };
     let (volume, area) = (hull.mesh().signed_volume(), hull.mesh().area());
     hull.is_flat() || volume < SMALLEST_VOLUME || 2.0 * volume < THINNEST * reach(mesh) * area
 }

@@ -130,9 +130,7 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
     }
     for (name, skip) in [("enable_collisions", false), ("disable_collisions", true)] {
         for node in srdf.elements(name) {
-            let (Some(a), Some(b)) = (link(node, "link1"), link(node, "link2")) else {
-                continue;
-            };
+            let (Some(a), Some(b)) = (link(node, "link1"), link(node, "link2")) else { continue };
             let reason = match node.attribute("reason") {
                 Some(reason) if !reason.trim().is_empty() => format!("SRDF: {}", reason.trim()),
                 _ => "SRDF".to_owned(),
@@ -154,9 +152,7 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
     };
     for (pair, (skip, reason)) in &wanted {
         // A link without shapes needs no edit.
-        let Some(all_are) = now.get(pair) else {
-            continue;
-        };
+        let Some(all_are) = now.get(pair) else { continue };
         if *all_are == Some(*skip) {
             imported.already += 1;
             continue;
@@ -238,9 +234,7 @@ pub fn import_states(robot: &Robot, text: &str, force: bool) -> Result<ImportedS
     let mut states: Vec<(String, BTreeMap<usize, DofPosition>)> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();
     for node in srdf.elements("group_state") {
-        let Some(name) = wrong.attribute(node, "name") else {
-            continue;
-        };
+        let Some(name) = wrong.attribute(node, "name") else { continue };
         let place = *places.entry(name.to_owned()).or_insert(states.len());
         if place == states.len() {
             states.push((name.to_owned(), BTreeMap::new()));

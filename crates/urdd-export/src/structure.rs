@@ -119,9 +119,7 @@ impl Structure {
         let mut joints = Vec::new();
         let mut link = tip;
         while link != base {
-            let Some(joint) = self.tree.parent_joint[link] else {
-                return Vec::new();
-            };
+            let Some(joint) = self.tree.parent_joint[link] else { return Vec::new() };
             joints.push(joint);
             link = self.tree.joint_links[joint].0;
         }

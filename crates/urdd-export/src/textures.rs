@@ -236,17 +236,13 @@ fn has_checksum(chunk: &[u8]) -> bool {
 
 /// Whether the compressed pixels are as many as the header says, with nothing after them.
 fn is_exact(image: &[u8], pixels: &[u8]) -> bool {
-    let Ok(header) = Decoder::new(Cursor::new(image)).read_info() else {
-        return false;
-    };
+    let Ok(header) = Decoder::new(Cursor::new(image)).read_info() else { return false };
     let info = header.info();
     if info.color_type == ColorType::Indexed && info.palette.is_none() {
         return false;
     }
     let expected = (info.raw_row_length() as u64).checked_mul(u64::from(info.height));
-    let Some(expected) = expected.filter(|_| !info.interlaced) else {
-        return false;
-    };
+    let Some(expected) = expected.filter(|_| !info.interlaced) else { return false };
     let mut decoder = ZlibDecoder::new(pixels);
     let count = copy(&mut decoder.by_ref().take(expected + 1), &mut sink());
     count.is_ok_and(|count| count == expected) && decoder.total_in() == pixels.len() as u64

@@ -20,13 +20,12 @@ use urdd_geometry::convex::{BodyPairs, ShapeError};
 use urdd_kinematics::ConfigurationError;
 use urdd_learned::train::{MAX_PAIRS, NoModel, Subject, train};
 use urdd_source::note::NoteKind;
-use urdd_spheres::module;
-use urdd_spheres::module::{Given, NoSpheres};
+use urdd_spheres::module::{self, Given, NoSpheres};
 use urdd_spheres::samples::{Moves, Pairs};
 
 struct CheckedPieces<'a> {
-    pub pieces: &'a [Vec<WrittenMesh>],
-    pub skips: &'a LinkShapesSkipsModule,
+    pieces: &'a [Vec<WrittenMesh>],
+    skips: &'a LinkShapesSkipsModule,
     /// The place of each link in the matrix over full shapes.
     full: Vec<Option<usize>>,
     links: Vec<usize>,
@@ -64,7 +63,7 @@ impl<'a> CheckedPieces<'a> {
     }
 
     /// What is said of a piece that cannot be measured.
-    pub fn fault(&self, (piece, error): (usize, ShapeError)) -> String {
+    fn fault(&self, (piece, error): (usize, ShapeError)) -> String {
         let of = self.skips.decomposition_shapes.get(piece);
         let of = of.map_or_else(String::new, |of| {
             format!(" piece {} of link {}", of.piece_idx, of.link_idx)

@@ -50,9 +50,7 @@ fn share(links: &mut [Cover], count: usize) {
     for _ in 0..CUTS * count {
         let left = count.saturating_sub(links.iter().map(|link| link.best.len()).sum());
         let order = |a: &usize, b: &usize| wastes[*a].total_cmp(&wastes[*b]).then(b.cmp(a));
-        let Some(link) = (0..links.len()).max_by(order) else {
-            break;
-        };
+        let Some(link) = (0..links.len()).max_by(order) else { break };
         if left == 0 || wastes[link] <= 0.0 {
             break;
         }

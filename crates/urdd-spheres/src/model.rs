@@ -64,9 +64,7 @@ impl<'a> Placeable<'a> {
     pub fn may_be_near(&self, placed: &Placed, [a, b]: [usize; 2], limit: f64) -> bool {
         let centres = placed.about[a].zip(placed.about[b]);
         let spheres = self.about[a].zip(self.about[b]);
-        let Some(((p, q), (a, b))) = centres.zip(spheres) else {
-            return false;
-        };
+        let Some(((p, q), (a, b))) = centres.zip(spheres) else { return false };
         let between = sub(p, q);
         let reach = a.radius + b.radius + limit;
         reach > 0.0 && dot(between, between) <= reach * reach
@@ -104,9 +102,7 @@ impl<'a> Placeable<'a> {
                 placed.centres[link].extend(own.map(|s| sample.poses[link].place(s.centre)));
             }
         }
-        let Some((about, of_all)) = placed.about[b].zip(self.about[b]) else {
-            return;
-        };
+        let Some((about, of_all)) = placed.about[b].zip(self.about[b]) else { return };
         for (i, (p, of_a)) in placed.centres[a].iter().zip(&self.spheres[a]).enumerate() {
             if !is_nearer(*p, about, of_a.radius + of_all.radius + limit) {
                 continue;

@@ -11,7 +11,7 @@ use std::collections::HashSet;
 
 use nalgebra::Point3;
 
-use crate::joints::{APART, LeftOut, OTHER_KIND, closings, coupled};
+use crate::joints::{APART, LeftOut, OTHER_KIND, closings, coupled, range};
 use crate::names::check_unique;
 use crate::urdf_elements::{element_of_joint, type_name};
 use crate::{ExportError, Moves, Note, Structure, Subject, Taken};
@@ -112,7 +112,6 @@ pub(crate) fn is_free(of: &Structure, view: &View) -> bool {
 
 /// Removes what Drake rejects.
 fn clean(joint: &mut Joint, view: &View, notes: &mut Vec<Note>) {
-    let mut note = |what| notes.push(Note::joint(&view.name, what));
     let mut is_negative = false;
     let mut positive = |value: &mut Option<f64>| {
         if value.is_some_and(|value| value < 0.0) {
@@ -127,20 +126,13 @@ fn clean(joint: &mut Joint, view: &View, notes: &mut Vec<Note>) {
         positive(&mut limit.velocity);
         positive(&mut limit.acceleration);
         positive(&mut limit.effort);
-        let range = match view.position_limits() {
-            Some((lower, upper)) if lower > upper => {
-                note(CROSSED);
-                None
-            }
-            range => range,
-        };
-        (limit.lower, limit.upper) = range.unzip();
+        (limit.lower, limit.upper) = range(view, CROSSED, notes).unzip();
     }
     if is_negative {
-        note(NEGATIVE);
+        notes.push(Note::joint(&view.name, NEGATIVE));
     }
     if joint.joint_type == JointType::Planar && joint.dynamics.take().is_some() {
-        note(DAMPING);
+        notes.push(Note::joint(&view.name, DAMPING));
     }
 }
 
@@ -150,9 +142,7 @@ fn chain(joint: &Joint, parts: &[(String, Moves)]) -> Vec<Joint> {
     let mut origin = joint.origin.clone();
     let mut chain = Vec::new();
     for (name, moves) in parts {
-        let Moves::Slides(axis) = moves else {
-            continue;
-        };
+        let Moves::Slides(axis) = moves else { continue };
         let child = LinkName { link: name.clone() };
         chain.push(Joint {
             name: name.clone(),
@@ -264,9 +254,7 @@ pub(super) fn kept(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) -> 
         [HashSet::new(), HashSet::new(), HashSet::new()];
     let mut order = Vec::new();
     let mut is_kept = |text: &String| {
-        let Ok(document) = urdd_xml::parse(text, Kind::Other) else {
-            return true;
-        };
+        let Ok(document) = urdd_xml::parse(text, Kind::Other) else { return true };
         let root = document.root_element();
         let (element, reason) = match root.tag_name().name() {
             "transmission" => {
@@ -308,12 +296,8 @@ fn refused(
         Some(kind) if !kind.contains("SimpleTransmission") => return None,
         Some(_) => {}
     }
-    let Some(actuator) = of_child("actuator") else {
-        return Some("it names no actuator");
-    };
-    let Some(joint) = of_child("joint") else {
-        return Some("it names no joint");
-    };
+    let Some(actuator) = of_child("actuator") else { return Some("it names no actuator") };
+    let Some(joint) = of_child("joint") else { return Some("it names no joint") };
     let is = |names: &[String]| names.iter().any(|name| name == joint);
     if is(&driven.fixed) {
         return None;

@@ -21,9 +21,7 @@ pub(super) fn actuators(
     let mut element = Element::new("actuator");
     let mut names = names(subject)?;
     for (index, gains) in gains.into_iter().enumerate() {
-        let Some(gains) = gains else {
-            continue;
-        };
+        let Some(gains) = gains else { continue };
         let joint = &subject.view.joints[index];
         let chosen = subject.gains(index);
         let name = names.remove(&index).unwrap_or_default();

@@ -133,9 +133,7 @@ fn equality(subject: &Subject, notes: &mut Vec<Note>) -> Element {
             // Stiffer than a mimic: an arm sags by less than 1e-4 rad.
             equality.push(held.with("polycoef", coefficients).with("solimp", "0.999 0.999 0.001"));
         }
-        let Some(mimic) = &subject.mimics.by_joint[index] else {
-            continue;
-        };
+        let Some(mimic) = &subject.mimics.by_joint[index] else { continue };
         let driver = &subject.view.joints[mimic.driver];
         let mut element = Element::new("joint").with("joint1", joint.name.as_str());
         let factor = match driver.num_dofs() {
@@ -184,8 +182,8 @@ const OTHER_SUM: &str =
 #[derive(Default)]
 struct Closings {
     /// For each link, its sites.
-    pub sites: Vec<Vec<Element>>,
-    pub equalities: Vec<Element>,
+    sites: Vec<Vec<Element>>,
+    equalities: Vec<Element>,
 }
 
 fn closings(subject: &Subject, notes: &mut Vec<Note>) -> Result<Closings, ExportError> {

@@ -84,6 +84,7 @@ const WORDS: [Word; 26] = [
 
 const IMPLICIT: &[&str] = &["physics/ode/implicit_spring_damper", "physics/ode/cfm_damping"];
 
+const TAKEN: &str = "another element has the name of one in it";
 const JOINED: &str = "it is about a link that is joined with another";
 
 /// What is said, by the name of a link or a joint; by an empty name, of the model.
@@ -103,9 +104,7 @@ impl Gazebo {
                 unreadable += usize::from(text.trim_start().starts_with("<gazebo"));
                 continue;
             };
-            let Some(root) = document.root_element().first_element_child() else {
-                continue;
-            };
+            let Some(root) = document.root_element().first_element_child() else { continue };
             if !root.has_tag_name("gazebo") {
                 continue;
             }
@@ -183,7 +182,7 @@ impl Gazebo {
                     if name.is_none_or(|name| taken.insert(name)) {
                         into.push(said.clone())
                     } else {
-                        notes.push(left_out("another element has the name of one in it"))
+                        notes.push(Note::Element { element: "gazebo", reason: TAKEN })
                     }
                 }
                 continue;
@@ -265,10 +264,6 @@ fn word(said: &Element) -> Option<&'static Word> {
 
 fn own(said: &Element) -> &str {
     said.attribute("value").map_or(said.own_text(), str::trim)
-}
-
-fn left_out(reason: &'static str) -> Note {
-    Note::Element { element: "gazebo", reason }
 }
 
 /// Elements that SDF gives a name.

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use nalgebra::{Isometry3, Vector3};
 
 use super::gazebo::{Gazebo, Place};
-use crate::joints::{Closing, LeftOut, OTHER_KIND, closings, coupled, moved};
+use crate::joints::{Closing, LeftOut, OTHER_KIND, closings, coupled, moved, range};
 use crate::{ExportError, Moves, Note, Subject, Taken};
 use urdd_document::robot::Joint as View;
 use urdd_format::loops::LoopKind;
@@ -186,13 +186,9 @@ fn fill(
         value.filter(|value| *value >= 0.0).map(|value| text(name, value))
     };
     let mut limit = Element::new("limit");
-    match view.position_limits() {
-        Some((lower, upper)) if lower > upper => notes.push(Note::joint(&view.name, CROSSED)),
-        Some((lower, upper)) => {
-            limit.push(text("lower", lower));
-            limit.push(text("upper", upper));
-        }
-        None => {}
+    if let Some((lower, upper)) = range(view, CROSSED, notes) {
+        limit.push(text("lower", lower));
+        limit.push(text("upper", upper));
     }
     let each = joint.limit.as_ref().map(|of| [("effort", of.effort), ("velocity", of.velocity)]);
     limit.extend(each.into_iter().flatten().filter_map(positive));

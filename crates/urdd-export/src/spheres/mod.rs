@@ -207,11 +207,10 @@ pub(super) fn checked_pairs(
         })
         .collect();
     let links: Vec<usize> = meshes.iter().map(|(link, _)| *link).collect();
-    let made = Pairs::new(meshes, is_checked).map_err(|(shape, error)| RobotError::Unusable {
+    Ok(Pairs::new(meshes, is_checked).map_err(|(shape, error)| RobotError::Unusable {
         module: ModuleKind::ConvexDecompositionMeshes,
         reason: format!("a piece of link {}: {error}", links[shape]),
-    })?;
-    Ok(made)
+    })?)
 }
 
 /// Maximum number of wrong results that are traced to pairs.

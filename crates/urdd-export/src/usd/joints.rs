@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::prim::{Filters, Paths, Prim, elements, float, floats, mend, wxyz};
 use crate::gains::positive;
-use crate::joints::{Closing, Followers, moved};
+use crate::joints::{Closing, Followers, moved, range};
 use crate::names::last;
 use crate::{Gains, Note, Subject};
 use urdd_directory::export_toml::ActuatorKind;
@@ -130,7 +130,10 @@ impl Joints<'_> {
             Motion::One { instance, unit, axis, .. } => {
                 let token = aligned(&axis).0;
                 prim.set("uniform token physics:axis", format!("\"{token}\""));
-                self.limit(index, unit, &mut prim, notes);
+                if let Some((lower, upper)) = range(joint, CROSSED, notes) {
+                    prim.set("float physics:lowerLimit", float(lower * unit));
+                    prim.set("float physics:upperLimit", float(upper * unit));
+                }
                 self.inner(index, unit, &mut prim);
                 self.drive(index, instance, unit, &mut prim);
                 self.mimic(index, token, unit, &mut prim, notes);
@@ -141,18 +144,6 @@ impl Joints<'_> {
             }
         }
         prim
-    }
-
-    fn limit(&self, index: usize, unit: f64, prim: &mut Prim, notes: &mut Vec<Note>) {
-        let joint = &self.subject.view.joints[index];
-        match joint.position_limits() {
-            Some((lower, upper)) if lower > upper => notes.push(Note::joint(&joint.name, CROSSED)),
-            Some((lower, upper)) => {
-                prim.set("float physics:lowerLimit", float(lower * unit));
-                prim.set("float physics:upperLimit", float(upper * unit));
-            }
-            None => {}
-        }
     }
 
     /// Damping, friction, the motor's inertia and the greatest velocity, for Newton and for PhysX.
@@ -187,9 +178,7 @@ impl Joints<'_> {
             prim.apply(format!("PhysicsJointStateAPI:{instance}"));
             prim.set(&format!("float state:{instance}:physics:position"), float(position * unit));
         }
-        let Some(gains) = self.drives.as_ref().and_then(|drives| drives[index]) else {
-            return;
-        };
+        let Some(gains) = self.drives.as_ref().and_then(|drives| drives[index]) else { return };
         prim.apply(format!("PhysicsDriveAPI:{instance}"));
         let mut set = |name: &str, value: f64| {
             prim.set(&format!("float drive:{instance}:physics:{name}"), float(value));
@@ -205,9 +194,7 @@ impl Joints<'_> {
     }
 
     fn mimic(&self, index: usize, axis: &str, unit: f64, prim: &mut Prim, notes: &mut Vec<Note>) {
-        let Some(mimic) = self.followers.mimic(self.subject, index) else {
-            return;
-        };
+        let Some(mimic) = self.followers.mimic(self.subject, index) else { return };
         let joints = &self.subject.view.joints;
         let mut note = |what| notes.push(Note::joint(&joints[index].name, what));
         let [own, other] = [index, mimic.driver].map(|index| &joints[index]);

@@ -200,9 +200,7 @@ fn visuals(looks: &[Look], images: &[Option<String>], materials: &mut Materials)
             uv.extend(coordinates(look.part.texture.as_ref(), look.part.mesh.vertices.len()));
         }
         let texture = image.as_ref().map(|path| asset(path));
-        let Some(material) = materials.of(look.part.color, texture.as_deref()) else {
-            continue;
-        };
+        let Some(material) = materials.of(look.part.color, texture.as_deref()) else { continue };
         let mut subset = Prim::new("GeomSubset", format!("subset_{place}"));
         subset.set("uniform token elementType", "\"face\"");
         subset.set("uniform token familyName", "\"materialBind\"");

@@ -35,7 +35,7 @@ use urdd_format::composition::CompositionModule;
 use urdd_format::registry::ModuleKind;
 use urdd_source::note::NoteKind;
 use urdd_source::origin::has_quaternions;
-use urdd_source::{named, note as generated, read_urdf};
+use urdd_source::{named, read_urdf};
 
 pub use error::{CombineError, Note, PartFault};
 pub use recipe::Recipe;
@@ -179,8 +179,7 @@ pub fn combine(
     let generated = generate_composed(urdf.into_bytes(), place, given, target, &settings, progress);
     let mut generated = generated.map_err(|error| CombineError::Generate { id: None, error })?;
     // The notes about the parts already say that.
-    let is_said = |note: &generated::Note| note.kind == NoteKind::MeshNotFound;
-    generated.notes.retain(|note| !is_said(note));
+    generated.notes.retain(|note| note.kind != NoteKind::MeshNotFound);
     Ok(Combined { generated, composition, notes })
 }
 

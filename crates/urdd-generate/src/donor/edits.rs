@@ -279,42 +279,38 @@ fn sphere_lists(root: &Root, document: &Value) -> Result<Vec<SphereList>, Fault>
 
 /// A module with decisions, in a folder that is to be replaced.
 struct Decided<'a> {
-    pub folder: &'a Path,
-    pub kind: ModuleKind,
+    folder: &'a Path,
+    kind: ModuleKind,
     /// What the decisions are, for messages.
-    pub what: &'static str,
+    what: &'static str,
     /// The members of its document that hold the decisions.
-    pub keys: &'a [&'a str],
+    keys: &'a [&'a str],
 }
 
 /// What is wrong with a document, with its JSON Pointer.
 pub(super) type Fault = (String, String);
 
-struct Document {
-    value: Value,
-    text: String,
-}
-
 impl Decided<'_> {
     /// The decisions, whatever else is wrong with the URDD; `None` if there is no such module. `parse` reads them from the
     /// document. The URDD is `replaced` if its root metadata is readable.
     /// Fails if there may be some and they cannot be read.
-    pub fn read<T>(
+    fn read<T>(
         &self,
         replaced: Option<&Donor>,
         parse: impl FnOnce(&Root, &Value) -> Result<T, Fault>,
     ) -> Result<Option<T>> {
         let Ok(root) = Root::open(self.folder) else { return Ok(None) };
-        let Some(document) = self.document(&root)? else { return Ok(None) };
-        let decisions = parse(&root, &document.value).map_err(|(pointer, fault)| {
-            let at = position::locate(&document.text, &pointer);
+        let Some((value, text)) = self.document(&root)? else { return Ok(None) };
+        let decisions = parse(&root, &value).map_err(|(pointer, fault)| {
+            let at = position::locate(&text, &pointer);
             self.unusable(&self.path("module.json"), at, fault)
         })?;
-        self.check_mirror(&root, &document, replaced)?;
+        self.check_mirror(&root, &value, replaced)?;
         Ok(Some(decisions))
     }
 
-    fn document(&self, root: &Root) -> Result<Option<Document>> {
+    /// The value of the document, and its text; `None` if there is no such module.
+    fn document(&self, root: &Root) -> Result<Option<(Value, String)>> {
         let (json_path, yaml_path) = (self.path("module.json"), self.path("module.yaml"));
         let bytes = match root.read(&json_path, MAX_DOCUMENT_BYTES) {
             Ok(bytes) => bytes,
@@ -339,23 +335,18 @@ impl Decided<'_> {
         if let Some(twice) = twice {
             return Err(self.unreadable(&json_path, twice.position, &twice.message));
         }
-        Ok(Some(Document { value: document.value, text: document.text.to_string() }))
+        Ok(Some((document.value, document.text.to_string())))
     }
 
     /// Checks that the YAML file says the same. The user may have edited only that one. A YAML file that is still as
     /// generated is merely out of date.
-    fn check_mirror(
-        &self,
-        root: &Root,
-        document: &Document,
-        replaced: Option<&Donor>,
-    ) -> Result<()> {
+    fn check_mirror(&self, root: &Root, document: &Value, replaced: Option<&Donor>) -> Result<()> {
         let path = self.path("module.yaml");
         if is_as_made(replaced, &path) {
             return Ok(());
         }
         let Ok(bytes) = root.read(&path, MAX_DOCUMENT_BYTES) else { return Ok(()) };
-        let faults = yaml::check_mirror(&bytes, &document.value);
+        let faults = yaml::check_mirror(&bytes, document);
         // Only the first of many differences are kept, and those of decisions may be among the rest.
         let is_cut = faults.total(TextFaultKind::YamlDiffers) > KEPT_PER_KIND;
         let differs = faults.iter().find(|fault| match fault.kind {
@@ -371,11 +362,11 @@ impl Decided<'_> {
         Err(self.unusable(&path, fault.position, words))
     }
 
-    pub fn path(&self, file: &str) -> String {
+    fn path(&self, file: &str) -> String {
         format!("{}/{file}", self.kind.folder())
     }
 
-    pub fn refused(&self, path: &str, at: Option<Position>, fault: EditsFault) -> GenerateError {
+    fn refused(&self, path: &str, at: Option<Position>, fault: EditsFault) -> GenerateError {
         GenerateError::Edits { file: self.folder.join(path), at, lost: self.what, fault }
     }
 

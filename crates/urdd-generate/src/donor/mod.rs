@@ -29,8 +29,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use crate::metadata;
-use crate::metadata::{FOUND_KEY, GENERATOR, INPUTS_KEY, MODULE_VERSION};
+use crate::metadata::{self, FOUND_KEY, GENERATOR, INPUTS_KEY, MODULE_VERSION};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;

@@ -219,7 +219,7 @@ struct TriangleBudget(AtomicUsize);
 
 impl TriangleBudget {
     /// Adds the triangles of a link. Returns whether all links so far are within the budget.
-    pub fn take(&self, link: &str, triangles: usize) -> Result<bool, Fault> {
+    fn take(&self, link: &str, triangles: usize) -> Result<bool, Fault> {
         if triangles > MOST_LINK_TRIANGLES {
             return Err(Fault::TooManyTriangles {
                 link: link.into(),
@@ -233,7 +233,7 @@ impl TriangleBudget {
 
     /// # Errors
     /// If all links together have too many.
-    pub fn check(&self) -> Result<(), Fault> {
+    fn check(&self) -> Result<(), Fault> {
         if self.0.load(Ordering::Relaxed) > MOST_TRIANGLES {
             return Err(Fault::TooManyTrianglesInAll { limit: MOST_TRIANGLES });
         }

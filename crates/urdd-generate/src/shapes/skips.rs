@@ -9,14 +9,12 @@ use rayon::prelude::*;
 use super::statistics::{Shapes, distances_at, sampled_motion};
 use crate::context::Context;
 use crate::error::Result;
-use crate::made;
-use crate::made::{Shared, streamed};
+use crate::made::{self, Shared, streamed};
 use urdd_format::link_shapes_distance_statistics::{
     DistanceStatistics, LinkShapesDistanceStatisticsModule,
 };
 use urdd_format::link_shapes_simple_skips::{
-    CONTACT, LinkShapesSimpleSkipsModule, LinkShapesSimpleSkipsModule as SimpleSkips, SeenPair,
-    SkipReason, SkipReasons,
+    CONTACT, LinkShapesSimpleSkipsModule as SimpleSkips, SeenPair, SkipReason, SkipReasons,
 };
 use urdd_format::link_shapes_skips::{LinkShapesSkipsModule as Skips, SkipEdit};
 use urdd_format::short::Short;
@@ -30,7 +28,7 @@ pub(crate) fn simple_skips(
     context: &Context,
     shapes: &Shapes,
     statistics: &LinkShapesDistanceStatisticsModule,
-) -> Shared<LinkShapesSimpleSkipsModule> {
+) -> Shared<SimpleSkips> {
     let name = "the default configuration";
     let default = distances_at(context, shapes, name, &context.space.default_configuration())?;
     let joined: HashSet<[usize; 2]> = context
@@ -57,7 +55,7 @@ pub(crate) fn simple_skips(
         decomposition_bounding_spheres: of_pieces(5, &statistics.decomposition_bounding_spheres),
     };
     let of_pieces = |reasons: &Option<Reasons>| reasons.as_ref().map(skips);
-    let module = Arc::new(LinkShapesSimpleSkipsModule {
+    let module = Arc::new(SimpleSkips {
         full_shapes: statistics.full_shapes.clone(),
         decomposition_shapes: statistics.decomposition_shapes.clone(),
         full_convex_hulls_simple_skips: skips(&reasons.full_convex_hulls),
