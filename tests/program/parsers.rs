@@ -88,7 +88,7 @@ const JSON: &[(&str, &str)] = &[
 const WHOLE_FILES: &[(&str, &str)] = &[
     ("crates/urdd-conformance/src/tree.rs", "the suite's own"),
     ("crates/urdd-directory/src/schema_files.rs", "the schemas that urdd writes"),
-    ("crates/urdd-generate/src/donor/others.rs", "two files of one size in the output"),
+    ("crates/urdd-generate/src/donor/mod.rs", "two files of one size in the output"),
     ("crates/urdd-robot/src/batch.rs", "of the system"),
     ("crates/urdd-source/src/process/linux.rs", "of the system"),
     ("crates/urdd-view/src/drops.rs", "what was just written"),

@@ -10,10 +10,8 @@ use urdd_format::loops::LoopsModule;
 use urdd_format::urdf::{Joint, JointType, Limit, Link};
 use urdd_xml::other_parts::OtherPart;
 
-/// Something that a robot can have.
 struct Feature {
     name: &'static str,
-    /// How many a robot has.
     count: fn(&Subject) -> usize,
     /// By format, in the order of [`Format::ALL`].
     by_format: [How; 12],
@@ -80,21 +78,9 @@ impl Feature {
         }
     }
 
-    /// The same, but for URDF+ and Extended URDF.
-    const fn with_loops(mut self, [plus, extended]: [How; 2]) -> Self {
-        (self.by_format[10], self.by_format[11]) = (plus, extended);
-        self
-    }
-
-    /// The same, but for MoveIt.
-    const fn with_moveit(mut self, moveit: How) -> Self {
-        self.by_format[7] = moveit;
-        self
-    }
-
-    /// The same, but for cuRobo.
-    const fn with_curobo(mut self, curobo: How) -> Self {
-        self.by_format[4] = curobo;
+    /// The same, but for this format.
+    const fn but(mut self, format: Format, how: How) -> Self {
+        self.by_format[format as usize] = how;
         self
     }
 }
@@ -118,7 +104,11 @@ const TABLE: [Feature; 25] = [
     // `textures` counts what became of them.
     Feature::new(TEXTURES, |_| 0, [Yes, PNG, PNG, PNG, Yes]),
     Feature::new("textures that the URDF itself names", |of| links(of, has_texture), [No; 5]),
-    Feature::new("limits of position", limited, [Yes; 5]),
+    Feature::new(
+        "limits of position",
+        |of| of.view.joints.iter().filter(|joint| joint.position_limits().is_some()).count(),
+        [Yes; 5],
+    ),
     Feature::new(
         "limits of effort and velocity",
         |of| limits(of, |it| it.effort.or(it.velocity)),
@@ -129,7 +119,7 @@ const TABLE: [Feature; 25] = [
         |of| limits(of, |it| it.acceleration.or(it.jerk)),
         [Yes, NO_JERK, No, No, No],
     )
-    .with_curobo(CUROBO),
+    .but(Format::Curobo, CUROBO),
     Feature::new(
         "damping and friction of joints",
         |of| joints(of, |it| it.dynamics.is_some()),
@@ -146,7 +136,7 @@ const TABLE: [Feature; 25] = [
         [Yes, Yes, MIMIC, FROM_HARMONIC, MIMICS],
     ),
     Feature::new("joints with the name of a link", namesakes, [Yes, Yes, Yes, RENAMED, Yes])
-        .with_curobo(Yes),
+        .but(Format::Curobo, Yes),
     Feature::new(
         "planar joints",
         |of| typed(of, JointType::Planar),
@@ -158,7 +148,8 @@ const TABLE: [Feature; 25] = [
         [Yes, CHAIN, SLIDES, CHAIN, GENERIC],
     ),
     Feature::new("spherical joints", |of| typed(of, JointType::Spherical), [Yes; 5])
-        .with_loops([Yes, RETYPED]),
+        .but(Format::UrdfPlus, Yes)
+        .but(Format::ExtendedUrdf, RETYPED),
     Feature::new(
         "names of visual and collision elements",
         named_shapes,
@@ -184,7 +175,7 @@ const TABLE: [Feature; 25] = [
         |of| of_robot(of, |text| is_a(text, HARDWARE_TAG)),
         [Yes, Yes, No, No, CUSTOM],
     )
-    .with_moveit(MOCK),
+    .but(Format::Moveit, MOCK),
     Feature::new(
         "other elements that URDF does not define, such as transmissions",
         other_elements,
@@ -195,13 +186,15 @@ const TABLE: [Feature; 25] = [
         |of| loops(of).map_or(0, |module| module.loops.len()),
         [No, BALLS, CLOSED, SECOND, OUTSIDE],
     )
-    .with_loops([Yes, PAIRED]),
+    .but(Format::UrdfPlus, Yes)
+    .but(Format::ExtendedUrdf, PAIRED),
     Feature::new(
         COUPLINGS,
         |of| loops(of).map_or(0, |module| module.couplings.len()),
         [No, FOLLOWS, SUMS, FOLLOWS, FOLLOWS],
     )
-    .with_loops([SIDES, No]),
+    .but(Format::UrdfPlus, SIDES)
+    .but(Format::ExtendedUrdf, No),
     // By format, in the order of `Format::ALL`.
     Feature {
         name: "pairs that need no collision check",
@@ -217,11 +210,6 @@ const TABLE: [Feature; 25] = [
         ],
     },
 ];
-
-/// Whether the file has URDF+'s elements as the source has them.
-fn has_loops_of_source(subject: &Subject) -> bool {
-    urdf::keeps_loops(subject) && of_robot(subject, urdf::is_of_loops) > 0
-}
 
 fn loops<'s>(subject: &'s Subject) -> Option<&'s LoopsModule> {
     subject.robot.loops().ok().flatten()
@@ -253,10 +241,6 @@ fn typed(subject: &Subject, joint_type: JointType) -> usize {
 
 fn limits(subject: &Subject, has: impl Fn(&Limit) -> Option<f64>) -> usize {
     joints(subject, |joint| joint.limit.as_ref().and_then(&has).is_some())
-}
-
-fn limited(subject: &Subject) -> usize {
-    subject.view.joints.iter().filter(|joint| joint.position_limits().is_some()).count()
 }
 
 fn namesakes(subject: &Subject) -> usize {
@@ -297,11 +281,8 @@ fn has_texture(link: &Link) -> bool {
 }
 
 const CHAINS: &str = "closed chains";
-
 const COUPLINGS: &str = "couplings of joints";
-
 const TEXTURES: &str = "textures of meshes";
-
 const COLLISIONS: &str = "collision geometry of the source";
 
 /// What became of it.
@@ -328,13 +309,16 @@ fn textures(made: &Export) -> impl Iterator<Item = (&'static str, usize, How)> {
     all.map(|(count, how)| (TEXTURES, count, how))
 }
 
-/// What a robot has, and how its format carries it.
 fn carried<'s>(subject: &'s Subject) -> impl Iterator<Item = (&'static str, usize, How)> + 's {
-    let place = Format::ALL.iter().position(|format| *format == subject.format);
     TABLE.iter().filter_map(move |feature| {
         let count = (feature.count)(subject);
-        let mut how = feature.by_format[place?];
-        if how == No && [CHAINS, COUPLINGS].contains(&feature.name) && has_loops_of_source(subject)
+        let mut how = feature.by_format[subject.format as usize];
+        let is_of_loops = [CHAINS, COUPLINGS].contains(&feature.name);
+        // The file has URDF+'s elements as the source has them.
+        if how == No
+            && is_of_loops
+            && urdf::keeps_loops(subject)
+            && of_robot(subject, urdf::is_of_loops) > 0
         {
             how = SOURCES;
         }
@@ -342,7 +326,6 @@ fn carried<'s>(subject: &'s Subject) -> impl Iterator<Item = (&'static str, usiz
     })
 }
 
-/// What the format cannot carry of this robot.
 pub(super) fn lost(subject: &Subject) -> Option<Note> {
     let lost: Vec<String> = carried(subject)
         .filter(|(_, _, how)| *how == No)

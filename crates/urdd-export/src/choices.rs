@@ -5,6 +5,9 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 use thiserror::Error;
+
+use crate::setup::BANDWIDTH;
+use crate::{Detail, Fit, Format, NoFit, Ros, Setup, Shapes};
 use urdd_directory::export_toml::ActuatorKind;
 use urdd_directory::range::{OutOfRange, Range};
 use urdd_format::link_shapes_skips::SkippedReason;
@@ -12,30 +15,23 @@ use urdd_format::shape_kind::UnknownShapeKind;
 use urdd_format::word::{UnknownWord, Word, with_word};
 use urdd_robot::ShapeKind;
 
-use crate::setup::gains::BANDWIDTH;
-use crate::{Detail, Fit, Format, NoFit, Ros, Setup, Shapes};
-
-/// The kinds of shapes.
-pub const KINDS: [Word; 6] = [
+const SHAPES: [Word; 7] = [
     ("pieces", "The convex pieces of links"),
     ("hulls", "The convex hulls of links"),
     ("boxes", "The bounding boxes of hulls"),
     ("spheres", "The bounding spheres of hulls"),
     ("piece-boxes", "The bounding boxes of pieces"),
     ("piece-spheres", "The bounding spheres of pieces"),
-];
-
-const SHAPES: &[Word] = &{
-    let mut all = [(
+    (
         Shapes::SOURCE,
         "The collision elements of the source: boxes, cylinders, capsules, spheres and meshes as it has them, and pieces for links that have none. Visual primitives stay primitives too",
-    ); 7];
-    let mut kind = 0;
-    while kind < KINDS.len() {
-        all[kind] = KINDS[kind];
-        kind += 1;
-    }
-    all
+    ),
+];
+
+/// The kinds of shapes.
+pub const KINDS: [Word; 6] = {
+    let [kinds @ .., _] = SHAPES;
+    kinds
 };
 
 /// The reasons to skip a pair of shapes.
@@ -100,7 +96,7 @@ macro_rules! choices {
 
 choices! {
     /// Shapes that represent the links, in the collision geometry and in the disabled pairs.
-    shapes: Shapes = ShapeKind::Pieces.into(), "SHAPES" Kind::Word(SHAPES), ALL;
+    shapes: Shapes = ShapeKind::Pieces.into(), "SHAPES" Kind::Word(&SHAPES), ALL;
     /// Reasons for which pairs of links are disabled[, separated by commas]. Default: those of the URDD. A person's edits
     /// apply in either case.
     reasons: Option<Vec<SkippedReason>> = None, "REASONS" Kind::Words(REASONS), ALL;

@@ -17,10 +17,8 @@ use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
 
 /// Number of sampled configurations to evaluate if the URDD does not record its own.
 const USUAL_SAMPLES: u32 = 1_000;
-/// Maximum number of sampled configurations to evaluate.
 const MAX_SAMPLES: u32 = 10_000;
 
-/// By what pairs are judged.
 pub(super) enum Basis {
     /// By the URDD's own skips of a kind of shapes.
     Kind(ShapeKind, Skips),

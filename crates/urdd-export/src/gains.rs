@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Isometry3, Point3, Rotation3, Vector3};
 
 use crate::inertia::tensor;
-use crate::setup::gains::USUAL_BANDWIDTH;
+use crate::setup::USUAL_BANDWIDTH;
 use crate::{ExportError, Note, Subject};
 use urdd_directory::export_toml::ActuatorKind;
 use urdd_document::robot::{Inertial, Joint};
@@ -68,7 +68,6 @@ pub(super) fn gains(
     Ok((all, said))
 }
 
-/// A value above 0.
 pub(super) fn positive(value: Option<f64>) -> Option<f64> {
     value.filter(|value| *value > 0.0)
 }
@@ -113,9 +112,7 @@ fn inertias(subject: &Subject) -> Result<Vec<Option<f64>>, ExportError> {
 /// What a joint moves: the inertia of all links after it about its axis, or their mass.
 fn moved(subject: &Subject, index: usize, joint: &Joint, poses: &[Isometry3<f64>]) -> f64 {
     let child = subject.tree.joint_links[index].1;
-    let Some(axis) = unit_axis(joint.axis) else {
-        return 0.0;
-    };
+    let Some(axis) = unit_axis(joint.axis) else { return 0.0 };
     let axis = poses[child].rotation * axis.into_inner();
     let origin = poses[child].translation.vector;
     let mut links = vec![child];
@@ -123,9 +120,7 @@ fn moved(subject: &Subject, index: usize, joint: &Joint, poses: &[Isometry3<f64>
     while let Some(link) = links.pop() {
         let children = subject.tree.child_joints[link].iter();
         links.extend(children.map(|joint| subject.tree.joint_links[*joint].1));
-        let Some(inertial) = &subject.view.links[link].inertial else {
-            continue;
-        };
+        let Some(inertial) = &subject.view.links[link].inertial else { continue };
         let mass = inertial.mass.unwrap_or(0.0).max(0.0);
         sum += match joint.joint_type {
             JointType::Prismatic => mass,

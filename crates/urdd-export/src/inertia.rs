@@ -1,7 +1,12 @@
-//! Moments of inertia that hold the triangle inequality in the digits that are written: a principal moment is at most the
-//! sum of the other two. For a thin plate or a rod the two are equal, and rounding may break it.
+//! Masses and moments of inertia, and what programs make of those that no body has.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+use crate::{Note, Subject};
+use urdd_document::robot::Inertial;
+use urdd_document::tree::RigidGroups;
+use urdd_xml::number::{number, numbers};
+use urdd_xml::writer::Element;
 
 /// What is rounding, relative to the largest principal moment.
 pub(super) const ROUNDING: f64 = 1e-9;
@@ -53,7 +58,6 @@ pub(super) fn tensor([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Matrix3<f64> {
     Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
 
-/// The mean of the moments of inertia.
 pub(super) fn mean([xx, _, _, yy, _, zz]: [f64; 6]) -> f64 {
     (xx + yy + zz) / 3.0
 }
@@ -81,4 +85,147 @@ pub fn for_drake(mass: f64, inertia: [f64; 6]) -> (f64, [f64; 6], Option<&'stati
     }
     let least = if has_moments { LEAST_MASS } else { 0.0 };
     (if mass > 0.0 { mass } else { least }, inertia, said)
+}
+
+/// MuJoCo's mjMINVAL, below which it treats a value as 0: kg and kg m².
+const MIN_VALUE: f64 = 1e-15;
+/// Assumed mass of a moving body that needs one, kg.
+const ASSUMED_MASS: f64 = 1e-9;
+/// Assumed moment of inertia of a moving body that needs one, kg m².
+const ASSUMED_INERTIA: f64 = 1e-9;
+/// The least moment for which MuJoCo finds principal axes by itself: it neglects products of inertia below it.
+const LEAST_FULL: f64 = 1e-12;
+
+fn words_of_mujoco(odd: Odd) -> &'static str {
+    match odd {
+        Odd::Negative => "its mass is negative, which MuJoCo takes for 0; so it is here",
+        Odd::Indefinite => {
+            "its inertia has a negative principal moment, which MuJoCo refuses; the mass stays, and the inertia is 0"
+        }
+        Odd::Triangle => {
+            "a principal moment of inertia is more than the other two together, which MuJoCo refuses; MuJoCo takes their mean about each axis (balanceinertia)"
+        }
+    }
+}
+
+const NO_INERTIA: &str = "it moves, and MuJoCo refuses a moment of inertia of 0; the mass stays, and 1e-9 kg m² are assumed where it is less";
+const NO_MASS: &str =
+    "it moves without mass, which MuJoCo refuses; 1e-9 kg and 1e-9 kg m² are assumed";
+
+/// The mass and inertia of a body.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Mass {
+    pub mass: f64,
+    pub centre: [f64; 3],
+    /// Principal moments of inertia, kg m².
+    pub moments: Vector3<f64>,
+    /// The principal axes, in the link's frame.
+    pub axes: Rotation3<f64>,
+    /// xx, yy, zz, xy, xz, yz in the link's frame, if these are equivalent and MuJoCo accepts them.
+    full: Option<[f64; 6]>,
+}
+
+/// The `inertial` element of each link, and whether MuJoCo has to balance moments.
+pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option<Element>>, bool) {
+    let mut balanced = false;
+    let links = &subject.view.links;
+    let mut note = |link: usize, what: &'static str| {
+        notes.push(Note::Inertia { link: links[link].name.clone(), what });
+    };
+    let mut masses: Vec<Option<Mass>> = Vec::new();
+    for (link, view) in links.iter().enumerate() {
+        let (found, odd) = view.inertial.as_ref().map_or((None, None), mass);
+        masses.push(found);
+        balanced |= odd == Some(Odd::Triangle);
+        if let Some(odd) = odd {
+            note(link, words_of_mujoco(odd));
+        }
+    }
+    for group in RigidGroups::new(&subject.view, &subject.tree).groups {
+        if group.moved_by.is_none() && !subject.has_free_base() {
+            continue;
+        }
+        let of_link = |link: &usize| masses[*link].as_ref();
+        if group.links.iter().filter_map(of_link).any(Mass::is_enough) {
+            continue;
+        }
+        let weight = |link: &usize| of_link(link).map_or(0.0, |mass| mass.mass);
+        // The heaviest link, the first one on ties.
+        let heavier = |a: &usize, b: &usize| weight(a).total_cmp(&weight(b)).then(b.cmp(a));
+        let bodies = group.links.iter().filter(|link| !subject.is_frame(**link));
+        let Some(&link) = bodies.max_by(|a, b| heavier(a, b)) else { continue };
+        note(link, if weight(&link) > MIN_VALUE { NO_INERTIA } else { NO_MASS });
+        masses[link].get_or_insert_default().raise();
+    }
+    let elements = masses.into_iter().map(|mass| mass.map(Mass::element));
+    (elements.collect(), balanced)
+}
+
+/// The mass that MuJoCo uses for a link, and why it is not that of the URDF.
+pub fn mass(inertial: &Inertial) -> (Option<Mass>, Option<Odd>) {
+    let given = inertial.mass.unwrap_or(0.0);
+    let mut odd = (given < 0.0).then_some(Odd::Negative);
+    let tensor = tensor(inertial.inertia.unwrap_or_default());
+    let rotation = inertial.origin.rotation();
+    let turned = rotation * tensor * rotation.transpose();
+    let mut eigen = ((turned + turned.transpose()) / 2.0).symmetric_eigen();
+    if eigen.eigenvectors.determinant() < 0.0 {
+        eigen.eigenvectors.neg_mut();
+    }
+    let (mut moments, most) = (eigen.eigenvalues, eigen.eigenvalues.amax());
+    if moments.min() < -ROUNDING * most {
+        odd = Some(Odd::Indefinite);
+        moments.fill(0.0);
+    }
+    moments.apply(|moment| *moment = moment.max(0.0));
+    let largest = moments.imax();
+    // As MuJoCo computes it.
+    let others = moments[(largest + 1) % 3] + moments[(largest + 2) % 3];
+    let room = others - moments[largest];
+    if room < -ROUNDING * most {
+        odd = Some(Odd::Triangle);
+    } else if room < 0.0 {
+        // For a thin plate, the two are equal up to rounding.
+        moments[largest] = others;
+    }
+    let is_full = moments.min() > LEAST_FULL && room > ROUNDING * most;
+    let mass = given.max(0.0);
+    let found = (mass > 0.0 || moments.max() > 0.0).then(|| Mass {
+        mass,
+        centre: inertial.origin.xyz,
+        moments,
+        axes: Rotation3::from_matrix_unchecked(eigen.eigenvectors),
+        full: is_full
+            .then(|| [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|at| turned[at])),
+    });
+    (found, odd)
+}
+
+impl Mass {
+    /// Whether MuJoCo accepts it for a moving body.
+    pub fn is_enough(&self) -> bool {
+        self.mass > MIN_VALUE && self.moments.min() > MIN_VALUE
+    }
+
+    /// Raises mass and moments to what a moving body needs.
+    pub fn raise(&mut self) {
+        if self.mass <= MIN_VALUE {
+            self.mass = ASSUMED_MASS;
+        }
+        (self.moments).apply(|moment| *moment = moment.max(ASSUMED_INERTIA));
+        self.full = None;
+    }
+
+    fn element(self) -> Element {
+        let element = Element::new("inertial")
+            .with("pos", numbers(&self.centre))
+            .with("mass", number(self.mass));
+        if let Some(full) = self.full {
+            return element.with("fullinertia", numbers(&full));
+        }
+        let q = UnitQuaternion::from_rotation_matrix(&self.axes);
+        element
+            .with("quat", numbers(&[q.w, q.i, q.j, q.k]))
+            .with("diaginertia", numbers(self.moments.as_slice()))
+    }
 }

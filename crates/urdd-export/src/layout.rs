@@ -7,10 +7,8 @@ use nalgebra::Isometry3;
 
 use crate::{Shape, Solid};
 use urdd_format::urdf::Origin;
-use urdd_geometry::Mesh;
 use urdd_kinematics::rotation::to_rpy;
 
-/// A place in a link.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub link: usize,
@@ -139,13 +137,6 @@ impl Layout {
             }
             shape.number = self.shape((link, shape.number)).1;
         })
-    }
-
-    /// Puts a mesh of a link of the URDD where it is now.
-    pub fn place_mesh(&self, link: usize, mesh: &mut Mesh) {
-        if let Some(place) = self.content.get(link) {
-            mesh.transform(&place.pose.to_homogeneous());
-        }
     }
 
     /// The poses of the links of the export in its root, by those of the URDD in its own.

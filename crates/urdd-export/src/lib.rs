@@ -39,8 +39,6 @@ mod choices;
 mod contacts;
 mod drake;
 mod error;
-mod extended_urdf;
-mod fit;
 mod format;
 mod gains;
 mod groups;
@@ -48,21 +46,16 @@ mod groups;
 pub mod inertia;
 mod joints;
 mod layout;
-mod loops;
-mod meshes;
 #[doc(hidden)]
-pub mod mjcf;
+pub mod meshes;
+mod mjcf;
 mod moveit;
 #[doc(hidden)]
 pub mod names;
-mod note;
-mod options;
 mod order;
 mod output;
 #[doc(hidden)]
 pub mod pairs;
-mod parts;
-mod ros;
 mod sdf;
 #[doc(hidden)]
 pub mod setup;
@@ -79,73 +72,49 @@ mod subject;
 mod textures;
 mod urdf;
 mod urdf_elements;
-mod urdf_plus;
+mod urdf_loops;
 mod usd;
 mod xacro;
 #[doc(hidden)]
 pub mod yaml;
-
-use urdd_robot::Robot;
-
-pub use carried::carried_table;
-pub use choices::{CHOICES, Choice, ChoiceError, Choices, KINDS, Kind, REASONS};
-pub use error::ExportError;
-pub use fit::{Fit, NoFit};
-pub use format::Format;
-pub use groups::JointGroup;
-pub use note::Note;
-pub use options::{Misfit, Options};
-pub use order::{JointOrder, joint_orders};
-pub use output::Export;
-pub use pairs::Contacts;
-pub use ros::{Limited, Ros};
-pub use setup::{Setup, SetupError};
-pub use shapes::{ShapeCounts, Shapes};
-pub use simplify::Detail;
-pub use spheres::SphereRates;
-pub use spheres::import::{
-    ImportedSpheres, ListError, SphereFault, SpheresError, import_spheres, read_spheres,
-};
-pub use srdf::groups::joint_groups_of_srdf;
-pub use srdf::import::{ImportedSkips, ImportedStates, SrdfError, import_srdf, import_states};
-pub use urdd_directory::export_toml::ActuatorKind;
-pub use urdd_format::word::{UnknownWord, Word};
-pub use urdd_spheres::list::SphereList;
-pub use urdd_spheres::model::Sphere;
-
 // What most files use.
+
 use gains::Gains;
 use layout::Layout;
-use meshes::{MeshFiles, MeshFormat, Painted};
-use mjcf::surface::FlatShapes;
+use meshes::{FlatShapes, MeshFiles, MeshFormat, Painted};
+use names::{Moves, Taken};
 use output::Files;
 use pairs::LinkPair;
-use parts::{Moves, Taken};
 use setup::Members;
 use shapes::{Shape, Solid};
 use stand::Stand;
 use structure::Structure;
 use subject::Subject;
+use urdd_robot::Robot;
 use yaml::Yaml;
 
-/// Where a free base is in a configuration, as keyframes of MJCF have it: x, y, z in m, and the quaternion w, x, y, z. In a
-/// named configuration, where the setup says; otherwise on the floor. `None` where the base is fixed.
-///
-/// # Errors
-/// Those of [`export`].
-pub fn base_pose(
-    robot: &Robot,
-    options: &Options,
-    name: Option<&str>,
-    configuration: &[f64],
-) -> Result<Option<[f64; 7]>, ExportError> {
-    options.check()?;
-    let subject = Subject::new(robot, options, false)?;
-    if !subject.has_free_base() {
-        return Ok(None);
-    }
-    stand::Stand::new(&subject, false)?.base(&subject, name, configuration).map(Some)
-}
+pub use carried::carried_table;
+pub use choices::{CHOICES, Choice, ChoiceError, Choices, KINDS, Kind, REASONS};
+pub use error::ExportError;
+pub use format::{Format, Limited, Ros};
+pub use groups::{JointGroup, joint_groups_of_srdf};
+pub use order::{JointOrder, joint_orders};
+pub use output::{Export, Note};
+pub use pairs::Contacts;
+pub use setup::{Setup, SetupError};
+pub use shapes::{ShapeCounts, Shapes};
+pub use simplify::Detail;
+pub use source_shapes::{Fit, NoFit};
+pub use spheres::SphereRates;
+pub use spheres::import::{
+    ImportedSpheres, ListError, SphereFault, SpheresError, import_spheres, read_spheres,
+};
+pub use srdf::{ImportedSkips, ImportedStates, SrdfError, import_srdf, import_states};
+pub use stand::base_pose;
+pub use subject::{Misfit, Options};
+pub use urdd_directory::export_toml::ActuatorKind;
+pub use urdd_format::word::{UnknownWord, Word};
+pub use urdd_spheres::model::{Sphere, SphereList};
 
 /// Exports a robot.
 ///
@@ -162,13 +131,13 @@ pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
         Format::Drake => drake::export(&subject),
         Format::Mjcf => mjcf::export(&subject),
         Format::Curobo => spheres::curobo::export(&subject),
-        Format::Foam => spheres::foam::export(&subject),
-        Format::Spherized => spheres::foam::spherized(&subject),
+        Format::Foam => spheres::said::foam(&subject),
+        Format::Spherized => spheres::said::spherized(&subject),
         Format::Moveit => moveit::export(&subject),
         Format::Sdf => sdf::export(&subject),
         Format::Usd => usd::export(&subject),
-        Format::UrdfPlus => urdf_plus::export(&subject),
-        Format::ExtendedUrdf => extended_urdf::export(&subject),
+        Format::UrdfPlus => urdf_loops::plus(&subject),
+        Format::ExtendedUrdf => urdf_loops::extended(&subject),
     }?;
     made.notes.extend(subject.shape_notes.clone());
     made.notes.extend(subject.arranged.iter().chain(&subject.lost).cloned());

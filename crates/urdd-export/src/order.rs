@@ -10,8 +10,8 @@ use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
 
 use crate::mjcf::actuators;
-use crate::parts::JointNames;
-use crate::usd::names::names_of_joints;
+use crate::names::JointNames;
+use crate::usd::prim::names_of_joints;
 use crate::{ExportError, Format, Note, Structure, Subject, drake};
 use urdd_format::urdf::{JointType, UrdfModule};
 use urdd_kinematics::rotation::unit_axis;
@@ -113,7 +113,6 @@ pub fn joint_orders(robot: &Robot) -> Result<Vec<JointOrder>, ExportError> {
     Ok(PROGRAMS.iter().map(order).collect())
 }
 
-/// The joints as an export of a format has them.
 struct Joints<'a> {
     of: &'a Structure,
     format: Format,

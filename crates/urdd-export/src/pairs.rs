@@ -168,7 +168,6 @@ pub(super) fn pairs(
     Ok(found.into_iter().filter_map(pair).collect())
 }
 
-/// A pair of shapes.
 struct Seen {
     pieces: [usize; 2],
     reason: Option<SkipReason>,

@@ -60,12 +60,10 @@ impl FromStr for Shapes {
     }
 }
 
-/// A shape of a link, in its frame.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Shape {
     /// Its number in the link: of a piece, or of a collision element.
     pub number: usize,
-    /// The name of its collision element.
     pub name: Option<String>,
     pub solid: Solid,
 }

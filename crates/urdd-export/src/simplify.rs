@@ -104,9 +104,7 @@ pub fn simplify_all(mut parts: Vec<&mut Part>, detail: Detail) -> Option<Note> {
             return 0.0;
         };
         // What cannot be measured is not changed.
-        let Ok(deviation) = surface.deviation(&found, part.mesh.area()) else {
-            return 0.0;
-        };
+        let Ok(deviation) = surface.deviation(&found, part.mesh.area()) else { return 0.0 };
         surface.compact(&found, part);
         deviation
     });

@@ -2,9 +2,28 @@
 
 use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion};
 
-use crate::{ExportError, Shape, Solid, Subject};
+use crate::{ExportError, Options, Shape, Solid, Subject};
+use urdd_robot::Robot;
 
-/// Where the robot stands.
+/// Where a free base is in a configuration, as keyframes of MJCF have it: x, y, z in m, and the quaternion w, x, y, z. In a
+/// named configuration, where the setup says; otherwise on the floor. `None` where the base is fixed.
+///
+/// # Errors
+/// Those of [`export`].
+pub fn base_pose(
+    robot: &Robot,
+    options: &Options,
+    name: Option<&str>,
+    configuration: &[f64],
+) -> Result<Option<[f64; 7]>, ExportError> {
+    options.check()?;
+    let subject = Subject::new(robot, options, false)?;
+    if !subject.has_free_base() {
+        return Ok(None);
+    }
+    Stand::new(&subject, false)?.base(&subject, name, configuration).map(Some)
+}
+
 pub(super) struct Stand {
     /// Height of a free base in the default configuration, m: the lowest shape touches z = 0. 0 without a free base.
     pub base_height: f64,

@@ -7,7 +7,6 @@ use urdd_format::urdf::UrdfModule;
 use urdd_kinematics::rotation::unit_axis;
 use urdd_robot::Robot;
 
-/// The joints of a robot as a tree.
 pub(super) struct Structure {
     /// The robot with the defaults of URDF filled in.
     pub view: View,
@@ -34,7 +33,6 @@ impl Structure {
         (view.name.clone(), [view.links.len(), view.joints.len()])
     }
 
-    /// An error if this is the identity of another robot.
     pub fn check(&self, of: &(String, [usize; 2])) -> Result<(), ExportError> {
         if *of == self.identity() {
             Ok(())
@@ -100,7 +98,6 @@ impl Structure {
         joints
     }
 
-    /// A link and all of its descendants.
     pub fn links_after(&self, link: usize) -> Vec<usize> {
         self.reached(link, |_| true)
     }
@@ -122,9 +119,7 @@ impl Structure {
         let mut joints = Vec::new();
         let mut link = tip;
         while link != base {
-            let Some(joint) = self.tree.parent_joint[link] else {
-                return Vec::new();
-            };
+            let Some(joint) = self.tree.parent_joint[link] else { return Vec::new() };
             joints.push(joint);
             link = self.tree.joint_links[joint].0;
         }

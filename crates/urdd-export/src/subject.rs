@@ -1,4 +1,4 @@
-//! The input of all exports.
+//! The input of all exports: a robot, and what a person chose for a format.
 
 use std::borrow::Cow;
 use std::cmp::Reverse;
@@ -6,16 +6,19 @@ use std::collections::HashMap;
 use std::ops::Deref;
 
 use nalgebra::Isometry3;
+use thiserror::Error;
 
-use crate::arrange::{self, Arranged};
+use crate::arrange::Arranged;
+use crate::choices::CHOICES;
 use crate::contacts::{Basis, Judged, num_samples};
-use crate::fit::fit;
-use crate::parts::JointNames;
-use crate::source_shapes::{self, SourceShapes, has_capsules, takes_hulls};
+use crate::names::JointNames;
+use crate::source_shapes::{SourceShapes, fit, has_capsules, takes_hulls};
 use crate::{
-    ExportError, Format, Layout, LinkPair, Note, Options, Setup, Shape, Shapes, Structure, names,
+    Choices, ExportError, Format, Layout, LinkPair, Note, Setup, Shape, Shapes, Structure, arrange,
+    names, source_shapes,
 };
 use urdd_directory::export_toml::{ActuatorKind, JointGains};
+use urdd_directory::range::OutOfRange;
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
 use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind};
@@ -43,9 +46,7 @@ pub(super) struct Subject<'a> {
     pub given: Option<Cow<'a, Setup>>,
     /// Whether the root link moves freely.
     pub is_floating: bool,
-    /// The robot of the URDD.
     pub described: UrdfModule,
-    /// The robot that is exported.
     pub urdf: UrdfModule,
     pub structure: Structure,
     /// Where its links are in those of `robot`.
@@ -55,13 +56,11 @@ pub(super) struct Subject<'a> {
     pub names: JointNames,
     /// What the source says where URDF defines nothing.
     pub other_parts: OtherParts,
-    /// Names of links, in link order.
     pub links: Vec<String>,
     /// Empty for formats without pairs.
     pub pairs: Vec<LinkPair>,
     /// Of what the shapes are made.
     pub shape_notes: Vec<Note>,
-    /// What the format cannot carry of this robot.
     pub lost: Option<Note>,
 }
 
@@ -248,7 +247,6 @@ impl<'a> Subject<'a> {
         Ok(dofs.zip(configuration.iter().copied()).collect())
     }
 
-    /// The pairs that need no collision check.
     pub fn disabled(&self) -> impl Iterator<Item = &LinkPair> {
         self.pairs.iter().filter(|pair| pair.disabled)
     }
@@ -305,4 +303,88 @@ pub(super) fn by_link(described: &UrdfModule, shapes: Vec<LinkShape>) -> Vec<Vec
         }
     }
     by_link
+}
+
+/// The options of a format. [`Choices::options`] makes it.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Options {
+    /// The format.
+    pub format: Format,
+    /// What was chosen. What the format has no place for is not read.
+    pub chosen: Choices,
+    /// The folder of the mesh files, relative to the text: without a trailing `/`, and empty for the same folder.
+    pub mesh_folder: String,
+    /// The name of the package, which MoveIt's configuration always has.
+    pub package: Option<String>,
+    /// The name of the file.
+    pub file: Option<String>,
+}
+
+/// An option that does not fit the format.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{option} is for {} only", self.formats())]
+pub struct Misfit {
+    /// The option, as in [`Choices`].
+    pub option: &'static str,
+    /// The formats that it is for.
+    pub of: &'static [Format],
+}
+
+impl Misfit {
+    /// The words of the formats that the option is for.
+    pub fn formats(&self) -> String {
+        let words: Vec<&str> = self.of.iter().map(|format| format.word()).collect();
+        match words.split_last() {
+            Some((last, others)) if !others.is_empty() => {
+                format!("{} and {last}", others.join(", "))
+            }
+            _ => words.concat(),
+        }
+    }
+}
+
+impl Choices {
+    /// The name of the package of a configuration of MoveIt that is not written to a folder.
+    pub const PACKAGE: &str = "robot_moveit_config";
+
+    /// The options of a format. Meshes and packages are named after what is written.
+    ///
+    /// # Errors
+    /// If something was chosen that the format does not have.
+    pub fn options(&self, format: Format) -> Result<Options, Misfit> {
+        let misfit = |of: &&crate::Choice| (of.is_chosen)(self) && !of.of.contains(&format);
+        if let Some(choice) = CHOICES.iter().find(misfit) {
+            return Err(Misfit { option: choice.name, of: choice.of });
+        }
+        let mut chosen = self.clone();
+        chosen.bandwidth =
+            chosen.bandwidth.filter(|_| matches!(format, Format::Mjcf | Format::Usd));
+        let has_setup = !matches!(format, Format::Srdf | Format::Foam | Format::Spherized)
+            && !format.is_plain_urdf();
+        chosen.setup = chosen.setup.filter(|_| has_setup);
+        let text = |of: &std::ffi::OsStr| of.to_string_lossy().into_owned();
+        let output = self.output.as_ref();
+        let file = output.and_then(|output| output.file_name()).map(text);
+        let named = output.map(|file| text(file.file_stem().unwrap_or_default()) + "_meshes");
+        let mut mesh_folder = self.mesh_folder.clone().or(named);
+        let mut package = self.package.clone();
+        if format == Format::Moveit {
+            // Whether ROS takes it, the export says.
+            let folder = output.map(|_| file.clone().unwrap_or_default().to_lowercase());
+            package = package.or(folder.map(|folder| folder.replace(['-', ' ', '.'], "_")));
+            let inside = package.as_ref().map(|package| format!("package://{package}/meshes"));
+            mesh_folder = self.mesh_folder.clone().or(inside).or(mesh_folder);
+            package = package.or_else(|| Some(Self::PACKAGE.to_owned()));
+        }
+        let mesh_folder = mesh_folder.unwrap_or_else(|| "meshes".to_owned());
+        Ok(Options { format, chosen, mesh_folder, package, file })
+    }
+}
+
+impl Options {
+    /// Checks that each option is in its range.
+    pub(super) fn check(&self) -> Result<(), OutOfRange> {
+        CHOICES.iter().try_for_each(|choice| (choice.check)(&self.chosen))
+    }
 }

@@ -193,10 +193,7 @@ const FRAME: usize = 12;
 /// nothing of pixels, a wrong checksum, or data after the last pixel, which other readers pass over. The image was decoded
 /// before: it is as large as it says.
 fn for_mujoco(bytes: &[u8]) -> Result<Vec<u8>, DecodingError> {
-    match stripped(bytes) {
-        Some(bytes) => Ok(bytes),
-        None => written_anew(bytes),
-    }
+    stripped(bytes).map_or_else(|| written_anew(bytes), Ok)
 }
 
 /// The image without chunks that say nothing of pixels; `None` if its pixels have to be written anew.
@@ -239,17 +236,13 @@ fn has_checksum(chunk: &[u8]) -> bool {
 
 /// Whether the compressed pixels are as many as the header says, with nothing after them.
 fn is_exact(image: &[u8], pixels: &[u8]) -> bool {
-    let Ok(header) = Decoder::new(Cursor::new(image)).read_info() else {
-        return false;
-    };
+    let Ok(header) = Decoder::new(Cursor::new(image)).read_info() else { return false };
     let info = header.info();
     if info.color_type == ColorType::Indexed && info.palette.is_none() {
         return false;
     }
     let expected = (info.raw_row_length() as u64).checked_mul(u64::from(info.height));
-    let Some(expected) = expected.filter(|_| !info.interlaced) else {
-        return false;
-    };
+    let Some(expected) = expected.filter(|_| !info.interlaced) else { return false };
     let mut decoder = ZlibDecoder::new(pixels);
     let count = copy(&mut decoder.by_ref().take(expected + 1), &mut sink());
     count.is_ok_and(|count| count == expected) && decoder.total_in() == pixels.len() as u64

@@ -1,13 +1,13 @@
 //! What all stages may use. It is complete before the first stage, and no stage changes it.
 
-use super::donor::edits::{Decisions, Edits};
-use super::error::{GenerateError, Result};
-use super::kinematics_samples::kinematics_samples_module;
-use super::loops::{Made, closed};
-use super::meshes::mesh_files;
-use super::named::{Named, reference, without_reference};
-use super::settings::{Progress, Settings};
-use super::{chain, dof, made};
+use crate::donor::edits::{Decisions, Edits};
+use crate::error::{GenerateError, Result};
+use crate::given::{Named, reference, without_reference};
+use crate::kinematics::kinematics_samples_module;
+use crate::loops::{Made, closed};
+use crate::meshes::mesh_files;
+use crate::settings::{Progress, Settings};
+use crate::{kinematics, made};
 use urdd_format::bounds::BoundsModule;
 use urdd_format::chain::ChainModule;
 use urdd_format::composition::CompositionModule;
@@ -22,7 +22,7 @@ use urdd_kinematics::{ConfigurationSpace, ForwardKinematics, KinematicsError};
 use urdd_source::Source;
 use urdd_source::fault::Fault;
 use urdd_source::note::{Note, NoteKind};
-use urdd_spheres::list::SphereList;
+use urdd_spheres::model::SphereList;
 
 pub(crate) struct Context<'a> {
     pub source: &'a Source,
@@ -40,10 +40,8 @@ pub(crate) struct Context<'a> {
     /// The configuration in which pairs that touch are skipped, in place of the default configuration: a named one, or the
     /// closed one of a robot with loops.
     pub reference: Option<NamedConfiguration>,
-    /// Spheres that a person gave.
     pub spheres: Vec<SphereList>,
     pub loops: Option<LoopsModule>,
-    /// What is to say of them.
     pub loop_notes: Vec<Note>,
 }
 
@@ -60,9 +58,9 @@ impl<'a> Context<'a> {
         settings.check()?;
         let reading = &source.reading;
         let refused = |fault| GenerateError::from(source.refused(fault));
-        let dof = dof::dof_module(&reading.robot, &reading.tree).map_err(refused)?;
-        let chain = chain::chain_module(&reading.robot, &reading.tree);
-        let bounds = dof::bounds_module(&reading.robot, &dof);
+        let dof = kinematics::dof_module(&reading.robot, &reading.tree).map_err(refused)?;
+        let chain = kinematics::chain_module(&reading.robot, &reading.tree);
+        let bounds = kinematics::bounds_module(&reading.robot, &dof);
         let overflow = |error: KinematicsError| refused(Fault::NoPoses(error.to_string()));
         let space = ConfigurationSpace::new(&dof, &chain, &bounds.bounds).map_err(overflow)?;
         let kinematics = ForwardKinematics::new(&chain, &dof).map_err(overflow)?;

@@ -14,7 +14,6 @@ use urdd_format::short::Short;
 use urdd_source::SourceError;
 use urdd_source::note::{Note, SourcePlace};
 
-/// What stages and their parts return.
 pub(crate) type Result<T, E = GenerateError> = std::result::Result<T, E>;
 
 /// Maximum number of faults of a file, or of names, that are shown one by one.

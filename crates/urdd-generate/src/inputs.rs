@@ -1,8 +1,8 @@
 //! The inputs of modules besides other modules. A module of the replaced URDD is kept if its text here and the modules
 //! that it depends on are the same.
 
-use super::context::Context;
-use super::mesh_stages::{DECOMPOSITION, decomposition};
+use crate::context::Context;
+use crate::meshes::derived::{DECOMPOSITION, decomposition};
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleKind;
 use urdd_learned::train::VERSION;

@@ -20,51 +20,36 @@
 
 // Hidden modules are public for `tests/`.
 pub mod batch;
-#[doc(hidden)]
-pub mod chain;
 mod checked_pieces;
 pub mod combine;
-#[doc(hidden)]
-pub mod connections;
 mod context;
-#[doc(hidden)]
-pub mod distinct;
-mod dof;
 mod donor;
 mod error;
-mod geometry_notes;
 mod given;
 mod inputs;
-mod kinematics_samples;
-mod learned;
+#[doc(hidden)]
+pub mod kinematics;
 mod loops;
-mod made;
-mod mesh_stages;
+#[doc(hidden)]
+pub mod made;
 #[doc(hidden)]
 pub mod meshes;
 mod metadata;
 mod modules;
-mod named;
-mod product;
 mod robot;
 mod selection;
 mod settings;
 #[doc(hidden)]
-pub mod shape_documents;
-#[doc(hidden)]
 pub mod shapes;
-mod size;
-mod skipped_contacts;
-mod spheres;
 mod stages;
 
 pub use error::{EditsFault, GenerateError, OutsideMesh, ReferenceFault};
 pub use meshes::MeshCount;
 pub use modules::MadeModule;
+pub(crate) use robot::MOST_LINKS;
 pub use robot::{Generated, UrddFiles, generate, generate_in_memory, generate_text};
 pub use selection::{Selection, UnknownModule};
 pub use settings::{MeshFormats, PIECE_TOLERANCE, PIECES, Pieces, Progress, SAMPLES, Settings};
-pub(crate) use size::MOST_LINKS;
 pub use urdd_learned::train::Effort;
 pub use urdd_source::{
     Files as SourceFiles, MAX_SOURCE_BYTES, PackagePathError, Packages, Settings as SourceSettings,

@@ -66,14 +66,6 @@ pub(super) fn inputs<'a>(
     sha256(&Sha256::digest(text)).as_str().to_owned()
 }
 
-/// The lowest version of the specification that has all modules (SPEC 4.1).
-fn spec_version(made: &[Entry]) -> &'static str {
-    let kinds = ModuleKind::ALL
-        .iter()
-        .filter(|kind| made.iter().any(|entry| entry.module.name == kind.name()));
-    kinds.map(|kind| kind.since()).max().unwrap_or(FIRST_SPEC_VERSION)
-}
-
 /// The highest conformance class whose modules are all present.
 pub(super) fn class(made: &[Entry]) -> ConformanceClass {
     let has = |kind: ModuleKind| made.iter().any(|entry| entry.module.name == kind.name());
@@ -97,8 +89,11 @@ pub(super) fn document(
     made: &[Entry],
     extensions: Vec<Value>,
 ) -> Result<Value> {
+    let is_made = |kind: &&ModuleKind| made.iter().any(|entry| entry.module.name == kind.name());
+    // The lowest version of the specification that has all modules (SPEC 4.1).
+    let since = ModuleKind::ALL.iter().filter(is_made).map(|kind| kind.since()).max();
     let metadata = RootMetadata {
-        urdd_version: version(spec_version(made)),
+        urdd_version: version(since.unwrap_or(FIRST_SPEC_VERSION)),
         robot_name: robot_name.to_owned(),
         conformance_class: class(made),
         generator: Some(Generator {

@@ -2,15 +2,15 @@
 //! dropped as soon as it is written, except its product, which later stages use.
 
 use std::collections::BTreeSet;
+use std::sync::OnceLock;
 
-use super::context::Context;
-use super::donor::Donor;
-use super::error::{GenerateError, Result};
-use super::inputs;
-use super::made::{Digests, Made, MadeFile};
-use super::metadata::{self, Entry, MODULE_VERSION};
-use super::product::{Load, Product};
-use super::settings::Settings;
+use crate::context::Context;
+use crate::donor::Donor;
+use crate::error::{GenerateError, Result};
+use crate::made::{Digests, Made, MadeFile};
+use crate::metadata::{Entry, MODULE_VERSION};
+use crate::settings::Settings;
+use crate::{inputs, metadata};
 use urdd_directory::document::Document;
 use urdd_directory::root::Root;
 use urdd_directory::writer::Writer;
@@ -172,4 +172,33 @@ pub(super) fn check_assumptions(notes: &[Note], settings: &Settings) -> Result<(
     let notes = notes.iter().filter(|note| note.kind.changes_robot());
     let notes: Vec<Note> = notes.filter(|_| settings.strict).cloned().collect();
     if notes.is_empty() { Ok(()) } else { Err(GenerateError::Strict { notes }) }
+}
+
+/// Reads the product of a stage from the files of its module.
+pub(super) type Load<T> = fn(&Root, ModuleKind) -> Result<T>;
+
+pub(super) struct Product<T> {
+    known: OnceLock<T>,
+    kind: ModuleKind,
+    root: Root,
+    load: Load<T>,
+}
+
+impl<T> Product<T> {
+    /// What a stage returned. Without it, `load` reads it from the URDD in `root`.
+    fn new(made: Option<T>, kind: ModuleKind, root: Root, load: Load<T>) -> Self {
+        let known = made.map_or_else(OnceLock::new, OnceLock::from);
+        Product { known, kind, root, load }
+    }
+
+    /// Returns the product; the first call reads it if this run did not build it.
+    pub fn get(&self) -> Result<&T> {
+        match self.known.get() {
+            Some(known) => Ok(known),
+            None => {
+                let loaded = (self.load)(&self.root, self.kind)?;
+                Ok(self.known.get_or_init(|| loaded))
+            }
+        }
+    }
 }

@@ -7,15 +7,15 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
-use super::context::Context;
-use super::donor::edits::Decisions;
-use super::donor::{Donor, others};
-use super::error::{GenerateError, Result};
-use super::given::{GivenDecisions, write_setup};
-use super::meshes::MeshCount;
-use super::modules::{MadeModule, Modules, check_assumptions};
-use super::settings::{Progress, Settings};
-use super::{metadata, size, stages};
+use crate::context::Context;
+use crate::donor::Donor;
+use crate::donor::edits::Decisions;
+use crate::error::{GenerateError, Result};
+use crate::given::{GivenDecisions, write_setup};
+use crate::meshes::MeshCount;
+use crate::modules::{MadeModule, Modules, check_assumptions};
+use crate::settings::{Progress, Settings};
+use crate::{donor, metadata, stages};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::root::Root;
 use urdd_directory::source::Memory;
@@ -25,11 +25,18 @@ use urdd_directory::{canonical, regular};
 use urdd_format::root_metadata::{self, ConformanceClass, FileEntry};
 use urdd_import::{Imported, import};
 use urdd_source::Source;
+use urdd_source::fault::Fault;
 use urdd_source::note::{Note, NoteKind};
 
 /// Sizes and hashes refer to bytes: Git must not convert line endings.
 const GIT_ATTRIBUTES: &str = "# The hashes in urdd.json are of these very bytes.\n* -text\n";
 const GIT_ATTRIBUTES_FILE: &str = ".gitattributes";
+
+/// Maximum number of links. The matrix of lowest common ancestors grows with its square.
+pub const MOST_LINKS: usize = 2_000;
+
+/// Maximum number of elements besides links and joints; 2,000 links have some 10,000.
+const MOST_ELEMENTS: usize = 100_000;
 
 /// The bytes of each file of a URDD, by path relative to its root.
 pub type UrddFiles = BTreeMap<String, Arc<[u8]>>;
@@ -138,7 +145,7 @@ pub fn generate_in_memory(
     progress: &dyn Progress,
 ) -> Result<(Generated, UrddFiles), GenerateError> {
     let (imported, source, settings) = load(source, settings, progress)?;
-    size::check(&source)?;
+    check_size(&source)?;
     check_assumptions(&source.notes, &settings)?;
     let given = imported.as_ref().map(GivenDecisions::from).unwrap_or_default();
     let decisions = given.decisions(true, Decisions::default());
@@ -153,7 +160,6 @@ pub fn generate_in_memory(
     Ok((written.generated(&context, true), files.files()))
 }
 
-/// The modules and the source of a URDD that is being made.
 struct Written {
     entries: Vec<metadata::Entry>,
     made: Vec<MadeModule>,
@@ -216,7 +222,7 @@ fn make(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Generated> {
-    size::check(source)?;
+    check_size(source)?;
     check_place(path, source, target)?;
     check_assumptions(&source.notes, settings)?;
     // From here on, no other run changes the target.
@@ -238,9 +244,9 @@ fn make(
         .map_err(|error| GenerateError::internal(&content.display().to_string(), error))?;
     let mut written = write(&context, replaced, &writer, root)?;
     if target.is_dir() {
-        others::carry_over(target, replaced, content)?;
+        donor::carry_over(target, replaced, content)?;
         let kinds: Vec<_> = written.made.iter().map(|module| module.kind).collect();
-        for kind in others::left_behind(content, &kinds) {
+        for kind in donor::left_behind(content, &kinds) {
             let file = target.join(kind.folder()).display().to_string();
             let problem = format!("files of yours are here, and `{}` is not made", kind.name());
             let assumed = "they stay, and `urdd validate` reports the folder (DIR003) until you move them away";
@@ -251,7 +257,7 @@ fn make(
     if !content.join(GIT_ATTRIBUTES_FILE).exists() {
         writer.file(GIT_ATTRIBUTES_FILE, GIT_ATTRIBUTES.as_bytes())?;
     }
-    let extensions = others::extensions(replaced, content);
+    let extensions = donor::extensions(replaced, content);
     let text = written.metadata(&source.reading.robot.name, given.origin, extensions)?;
     writer.file(ROOT_METADATA, text.as_bytes())?;
     let changed = !replaced.is_some_and(|replaced| is_same(replaced, target, &text, &written.made));
@@ -260,6 +266,28 @@ fn make(
         staging.commit()?;
     }
     Ok(written.generated(&context, changed))
+}
+
+/// Refuses a robot whose URDD would be too large for its readers.
+fn check_size(source: &Source) -> Result<()> {
+    let robot = &source.reading.robot;
+    let links = robot.links.len();
+    let shapes = robot
+        .links
+        .iter()
+        .map(|link| link.visual.len() + link.collision.len() + link.unknown_elements.len());
+    let of_joints = robot.joints.iter().map(|joint| joint.unknown_elements.len());
+    let elements = shapes.chain(of_joints).sum::<usize>()
+        + robot.materials.len()
+        + robot.unknown_elements.len();
+    let fault = if links > MOST_LINKS {
+        Fault::TooManyLinks { found: links, limit: MOST_LINKS }
+    } else if elements > MOST_ELEMENTS {
+        Fault::TooManyElements { found: elements, limit: MOST_ELEMENTS }
+    } else {
+        return Ok(());
+    };
+    Err(source.refused(fault).into())
 }
 
 /// Checks that the source is outside the target.
@@ -275,7 +303,6 @@ fn check_place(path: Option<&Path>, source: &Source, target: &Path) -> Result<()
     Ok(())
 }
 
-/// Checks that the content of the target may be replaced.
 fn check_target(target: &Path, replaced: Option<&Donor>, settings: &Settings) -> Result<()> {
     let Ok(canonical) = target.canonicalize() else { return Ok(()) };
     let is_empty = fs::read_dir(&canonical).is_ok_and(|mut entries| entries.next().is_none());

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::selection::Selection;
+use crate::selection::Selection;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::range::{OutOfRange, Range};
 use urdd_directory::root::Root;
@@ -58,7 +58,7 @@ pub struct Settings {
     /// Cancellation, checked before each module and mesh. A cancelled run returns [`GenerateError::Cancelled`] and
     /// changes nothing.
     ///
-    /// [`GenerateError::Cancelled`]: super::GenerateError::Cancelled
+    /// [`GenerateError::Cancelled`]: crate::GenerateError::Cancelled
     pub cancellation: Cancellation,
 }
 

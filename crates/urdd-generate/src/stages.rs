@@ -4,21 +4,25 @@
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use super::connections::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS, connections_module};
-use super::context::Context;
-use super::donor::links::DonorLinks;
-use super::error::Result;
-use super::made::{Made, made, streamed};
-use super::meshes::MeshCount;
-use super::meshes::original::original_meshes;
-use super::modules::Modules;
-use super::named::Named;
-use super::shapes::statistics::Shapes;
-use super::shapes::{ConvexMeshes, approximations, simple_skips, statistics};
-use super::{
-    geometry_notes, inputs, learned, mesh_stages as meshes, product, skipped_contacts, spheres,
-};
+use serde::de::DeserializeOwned;
+
+use crate::context::Context;
+use crate::donor::links::DonorLinks;
+use crate::error::{GenerateError, Result};
+use crate::given::Named;
+use crate::kinematics::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS, connections_module};
+use crate::made::{Made, made, streamed};
+use crate::meshes::original::original_meshes;
+use crate::meshes::{MeshCount, Meshes, Pieces, derived, plain, read_mesh};
+use crate::modules::Modules;
+use crate::shapes::statistics::Shapes;
+use crate::shapes::{ConvexMeshes, skips, statistics};
+use crate::{checked_pieces, donor, inputs, shapes};
 use urdd_directory::document::{Document, Member, Rows};
+use urdd_directory::root::Root;
+use urdd_format::convex_decomposition_meshes::ConvexDecompositionMeshesModule;
+use urdd_format::convex_hull_meshes::ConvexHullMeshesModule;
+use urdd_format::meshes::MeshFiles;
 use urdd_format::named_configurations::NamedConfigurationsModule;
 use urdd_format::plain_meshes::PlainMeshesModule;
 use urdd_format::registry::ModuleKind;
@@ -40,24 +44,23 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount>
     let original = modules.add(ModuleKind::OriginalMeshes, |_| original_meshes(context))?;
     let count = original.as_ref().map(|original| original.count);
     // Moved: the contents of mesh files are dropped with this stage.
-    let plain = modules.product(ModuleKind::PlainMeshes, product::plain, move |digests| {
+    let plain = modules.product(ModuleKind::PlainMeshes, load_plain, move |digests| {
         let taken = donors.plain(context, original.as_ref(), digests);
-        meshes::plain(context, original.as_ref(), &taken)
+        derived::plain(context, original.as_ref(), &taken)
     })?;
     if modules.has(ModuleKind::PlainMeshes) {
-        let taken: Arc<PlainMeshesModule> =
-            product::document(modules.root(), ModuleKind::PlainMeshes)?;
-        modules.notes.extend(geometry_notes::notes(context, &taken));
+        let taken: Arc<PlainMeshesModule> = load_document(modules.root(), ModuleKind::PlainMeshes)?;
+        modules.notes.extend(plain::notes(context, &taken));
     }
     let kind = ModuleKind::ConvexHullMeshes;
-    let hulls = modules.product(kind, product::hulls, |digests| {
+    let hulls = modules.product(kind, load_hulls, |digests| {
         let plain = plain.get()?;
-        meshes::hulls(context, plain, donors.solids(context, kind, plain, digests))
+        derived::hulls(context, plain, donors.solids(context, kind, plain, digests))
     })?;
     let kind = ModuleKind::ConvexDecompositionMeshes;
-    let pieces = modules.product(kind, product::pieces, |digests| {
+    let pieces = modules.product(kind, load_pieces, |digests| {
         let plain = plain.get()?;
-        meshes::pieces(context, plain, donors.solids(context, kind, plain, digests))
+        derived::pieces(context, plain, donors.solids(context, kind, plain, digests))
     })?;
 
     let solids = || -> Result<_> {
@@ -65,12 +68,12 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount>
         Ok(ConvexMeshes { hulls, pieces })
     };
     let kind = ModuleKind::LinkShapesApproximations;
-    let approximations = modules.product(kind, product::document, |digests| {
+    let approximations = modules.product(kind, load_document, |digests| {
         let solids = solids()?;
-        approximations::approximations(context, &solids, donors.shapes(context, &solids, digests))
+        shapes::approximations(context, &solids, donors.shapes(context, &solids, digests))
     })?;
     modules.add(ModuleKind::LinkShapesMaxDistanceFromOrigin, |_| {
-        made(&approximations::max_distances(&solids()?, approximations.get()?))
+        made(&shapes::max_distances(&solids()?, approximations.get()?))
     })?;
     // Preparing the shapes takes long. The next two stages use them.
     let known = OnceCell::new();
@@ -80,32 +83,58 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount>
             .map(|shapes| known.get_or_init(|| shapes)),
     };
     let kind = ModuleKind::LinkShapesDistanceStatistics;
-    let statistics = modules.product(kind, product::document, |_| {
+    let statistics = modules.product(kind, load_document, |_| {
         statistics::statistics(context, &solids()?, prepared()?)
     })?;
     let kind = ModuleKind::LinkShapesSimpleSkips;
-    let simple_skips = modules.product(kind, product::document, |_| {
-        simple_skips::simple_skips(context, prepared()?, statistics.get()?)
+    let simple_skips = modules.product(kind, load_document, |_| {
+        skips::simple_skips(context, prepared()?, statistics.get()?)
     })?;
     let kind = ModuleKind::LinkShapesSkips;
-    let skips = modules.product(kind, product::document, |_| {
-        skipped_contacts::edited_skips(context, prepared, simple_skips.get()?)
+    let skips = modules.product(kind, load_document, |_| {
+        skips::edited_skips(context, prepared, simple_skips.get()?)
     })?;
     if modules.has(kind) {
         let (simple, skips) = (simple_skips.get()?, skips.get()?);
-        modules.notes.extend(skipped_contacts::notes(context, prepared, simple, skips)?);
+        modules.notes.extend(skips::notes(context, prepared, simple, skips)?);
     }
     drop(known);
     modules.add(ModuleKind::SelfCollisionModel, |digests| {
         let (pieces, skips) = (pieces.get()?, skips.get()?);
-        learned::self_collision_model(context, pieces, skips, statistics.get()?, digests)
+        checked_pieces::self_collision_model(context, pieces, skips, statistics.get()?, digests)
     })?;
     modules.add(ModuleKind::LinkShapesSpheres, |_| {
-        spheres::spheres(context, pieces.get()?, skips.get()?)
+        checked_pieces::spheres(context, pieces.get()?, skips.get()?)
     })?;
     modules.add(ModuleKind::Loops, |_| made(&context.loops))?;
     modules.notes.extend(context.loop_notes.iter().cloned());
     Ok(count.unwrap_or_default())
+}
+
+fn load_document<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Result<Arc<T>> {
+    let read = donor::document(root, kind).map(Arc::new);
+    read.map_err(|reason| GenerateError::internal(kind.folder(), reason))
+}
+
+fn load_plain(root: &Root, kind: ModuleKind) -> Result<Meshes> {
+    let module: Arc<PlainMeshesModule> = load_document(root, kind)?;
+    let links = module.link_meshes.iter().map(Option::as_ref);
+    one_each(root, links.map(|link| link.map(|mesh| &mesh.files)))
+}
+
+fn load_hulls(root: &Root, kind: ModuleKind) -> Result<Meshes> {
+    let module: Arc<ConvexHullMeshesModule> = load_document(root, kind)?;
+    one_each(root, module.link_hulls.iter().map(Option::as_ref))
+}
+
+fn one_each<'a>(root: &Root, links: impl Iterator<Item = Option<&'a MeshFiles>>) -> Result<Meshes> {
+    links.map(|link| link.map(|files| read_mesh(root, files))).map(Option::transpose).collect()
+}
+
+fn load_pieces(root: &Root, kind: ModuleKind) -> Result<Pieces> {
+    let module: Arc<ConvexDecompositionMeshesModule> = load_document(root, kind)?;
+    let links = module.link_pieces.iter();
+    links.map(|link| link.iter().map(|files| read_mesh(root, files)).collect()).collect()
 }
 
 /// With 180 links in a line these tables have 5 million numbers.

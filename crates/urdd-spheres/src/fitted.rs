@@ -2,13 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::fit::{self, Limits};
-use super::frame::Point;
-use super::judge;
-use super::model::{self, Spheres};
-use super::pairs::Pairs;
-use super::samples::{Ask, Moves, Region, Sample, Sampler};
-use super::surface;
+use crate::fit::Limits;
+use crate::frame::Point;
+use crate::model::Spheres;
+use crate::samples::{Ask, Moves, Pairs, Region, Sample, Sampler};
+use crate::{fit, judge, model, surface};
 
 /// Spheres for each link on average, and in all, where no number is asked for.
 pub const AUTO_PER_LINK: usize = 12;

@@ -85,13 +85,8 @@ pub fn touching(spheres: &Spheres, pairs: &[[usize; 2]], samples: &[Sample]) -> 
     let model = Placeable::new(spheres);
     let touching = |placed: &mut Placed, sample: &Sample| {
         model.place(sample, placed);
-        let mut found = Vec::new();
-        for (number, pair) in (0u32..).zip(pairs) {
-            if model.touches(sample, placed, *pair) {
-                found.push(number);
-            }
-        }
-        found
+        let pairs = (0u32..).zip(pairs);
+        pairs.filter(|(_, pair)| model.touches(sample, placed, **pair)).map(|(k, _)| k).collect()
     };
     samples.par_iter().map_init(Placed::default, touching).collect()
 }

@@ -102,9 +102,7 @@ impl Goal<'_> {
             let mut slope = Slope::new(own.len());
             let weight = 1.0 / (self.size * self.size * points.len().max(1) as f64);
             for p in points {
-                let Some((nearest, off)) = nearest(own, *p) else {
-                    break;
-                };
+                let Some((nearest, off)) = nearest(own, *p) else { break };
                 let between = sub(*p, own[nearest].centre);
                 let toward = scaled(between, 1.0 / norm(between).max(f64::MIN_POSITIVE));
                 // The distance decreases as the centre moves towards the point, and as the radius grows.

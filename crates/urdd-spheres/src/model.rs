@@ -1,7 +1,8 @@
-//! Spheres of links, and their placement in sampled configurations.
+//! Spheres of links, those that a person gave, and their placement in sampled configurations.
 
-use super::frame::{Point, Pose, add, dot, norm, scaled, sub};
-use super::samples::Sample;
+use crate::frame::{Point, Pose, add, dot, norm, scaled, sub};
+use crate::samples::Sample;
+
 pub use urdd_geometry::bounding_sphere::BoundingSphere as Sphere;
 
 /// Signed distance of a point to a sphere in its link's frame; negative inside.
@@ -63,9 +64,7 @@ impl<'a> Placeable<'a> {
     pub fn may_be_near(&self, placed: &Placed, [a, b]: [usize; 2], limit: f64) -> bool {
         let centres = placed.about[a].zip(placed.about[b]);
         let spheres = self.about[a].zip(self.about[b]);
-        let Some(((p, q), (a, b))) = centres.zip(spheres) else {
-            return false;
-        };
+        let Some(((p, q), (a, b))) = centres.zip(spheres) else { return false };
         let between = sub(p, q);
         let reach = a.radius + b.radius + limit;
         reach > 0.0 && dot(between, between) <= reach * reach
@@ -103,9 +102,7 @@ impl<'a> Placeable<'a> {
                 placed.centres[link].extend(own.map(|s| sample.poses[link].place(s.centre)));
             }
         }
-        let Some((about, of_all)) = placed.about[b].zip(self.about[b]) else {
-            return;
-        };
+        let Some((about, of_all)) = placed.about[b].zip(self.about[b]) else { return };
         for (i, (p, of_a)) in placed.centres[a].iter().zip(&self.spheres[a]).enumerate() {
             if !is_nearer(*p, about, of_a.radius + of_all.radius + limit) {
                 continue;
@@ -142,5 +139,32 @@ pub fn part(spheres: &mut Spheres, pairs: &[[usize; 2]], sample: &Sample, apart:
                 }
             }
         }
+    }
+}
+
+/// The spheres of some links, each in its link's frame, in metres.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SphereList {
+    /// Links by name, each with its spheres.
+    pub links: Vec<(String, Vec<Sphere>)>,
+    /// What of the list was left out, each with the reason.
+    pub left_out: Vec<String>,
+}
+
+impl SphereList {
+    /// For each link of a robot, its spheres. A link that stands twice has those of both.
+    pub fn by_link<T: AsRef<str>>(&self, names: &[T]) -> Vec<Vec<Sphere>> {
+        let mut found = vec![Vec::new(); names.len()];
+        for (name, spheres) in &self.links {
+            if let Some(link) = names.iter().position(|link| link.as_ref() == name) {
+                found[link].extend(spheres.iter().copied());
+            }
+        }
+        found
+    }
+
+    /// How many spheres there are.
+    pub fn count(&self) -> usize {
+        self.links.iter().map(|(_, spheres)| spheres.len()).sum()
     }
 }

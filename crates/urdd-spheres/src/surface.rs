@@ -1,7 +1,18 @@
-//! Points on the surface of a link, the target of its spheres' surface.
+//! The surface of a link: points on it, the target of its spheres' surface; and how far spheres are from it, by the points of
+//! SPEC 8.9.5.
 
-use super::frame::{Point, add, dot, norm, scaled, sub};
+use std::f64::consts::TAU;
+
+use nalgebra::Isometry3;
+
+use crate::frame::{Point, add, dot, norm, scaled, sub};
+use crate::model::{Sphere, distance};
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_format::link_shapes_spheres::SphereFit;
 use urdd_geometry::Mesh;
+use urdd_geometry::bounding_sphere::{BoundingSphere, about};
+use urdd_geometry::convex::{ConvexShape, ShapeError, distance as apart};
+use urdd_geometry::mesh::Bounds;
 use urdd_geometry::vector::normal;
 
 /// Minimum depth below the faces of another piece for a point to count as inside, in metres.
@@ -71,5 +82,162 @@ pub fn points(pieces: &[Mesh], count: usize) -> Vec<Point> {
         pieces.iter().flat_map(|mesh| mesh.vertices.clone()).collect()
     } else {
         found
+    }
+}
+
+/// Points on each sphere.
+const DIRECTIONS: usize = 64;
+/// The fractional part of the golden ratio.
+const STEP: f64 = 0.618_033_988_749_894_9;
+/// A point within another sphere by this part of its radius, or within another piece or outside of spheres by this part of
+/// the size, is.
+const WITHIN: f64 = 1e-6;
+/// The number of parts that an edge as long as the size is cut into.
+const PARTS: f64 = 15.7;
+
+/// The directions of the points on each sphere.
+fn directions() -> impl Iterator<Item = Point> {
+    (0..DIRECTIONS).map(|k| {
+        let z = 1.0 - (2 * k + 1) as f64 / DIRECTIONS as f64;
+        let (sin, cos) = (TAU * (STEP * k as f64).fract()).sin_cos();
+        let across = (1.0 - z * z).sqrt();
+        [across * cos, across * sin, z]
+    })
+}
+
+/// A convex piece: to measure distances, and the planes of its triangles.
+#[derive(Debug)]
+struct Piece {
+    shape: ConvexShape,
+    about: BoundingSphere,
+    planes: Planes,
+}
+
+/// The pieces of a link.
+#[derive(Debug)]
+pub struct Pieces {
+    pieces: Vec<Piece>,
+    /// The diagonal of the box around them, m.
+    pub size: f64,
+    /// Points of the surface, with the area that each stands for.
+    surface: Vec<(Point, f64)>,
+}
+
+impl Pieces {
+    /// Of the meshes of a link's pieces.
+    ///
+    /// # Errors
+    /// If distances of one cannot be measured.
+    pub fn new(meshes: &[Mesh]) -> Result<Self, ShapeError> {
+        let bounds = Bounds::of(meshes.iter().flat_map(|mesh| mesh.vertices.iter().copied()));
+        let size = norm(sub(bounds.max, bounds.min));
+        let pieces: Vec<Piece> = meshes.iter().map(piece).collect::<Result<_, _>>()?;
+        let mut surface = Vec::new();
+        for (own, mesh) in meshes.iter().enumerate() {
+            for triangle in &mesh.triangles {
+                centroids(mesh.corners(*triangle), size, |point, area| {
+                    let is_within = |(other, piece): (usize, &Piece)| {
+                        other != own && piece.planes.hold(point, WITHIN * size)
+                    };
+                    if !pieces.iter().enumerate().any(is_within) {
+                        surface.push((point, area));
+                    }
+                });
+            }
+        }
+        Ok(Pieces { pieces, size, surface })
+    }
+
+    /// The figures of spheres of this link. With very many spheres this takes long.
+    ///
+    /// # Errors
+    /// If it is cancelled.
+    pub fn fit(
+        &self,
+        spheres: &[Sphere],
+        cancellation: &Cancellation,
+    ) -> Result<SphereFit, Cancelled> {
+        let (mut most, mut sum, mut weights) = (0.0f64, 0.0, 0.0);
+        for (own, sphere) in spheres.iter().enumerate() {
+            cancellation.check()?;
+            for direction in directions() {
+                let point = add(sphere.centre, scaled(direction, sphere.radius));
+                let holds = |(other, of): (usize, &Sphere)| {
+                    other != own && norm(sub(point, of.centre)) < (1.0 - WITHIN) * of.radius
+                };
+                if spheres.iter().enumerate().any(holds) {
+                    continue;
+                }
+                let away = self.distance(point);
+                let weight = sphere.radius * sphere.radius;
+                most = most.max(away);
+                sum += weight * away;
+                weights += weight;
+            }
+        }
+        let (mut uncovered, mut area, mut farthest) = (0.0, 0.0, 0.0f64);
+        for (point, weight) in &self.surface {
+            cancellation.check()?;
+            let off = spheres.iter().map(|s| distance(s, *point)).fold(f64::INFINITY, f64::min);
+            area += weight;
+            if off > WITHIN * self.size {
+                uncovered += weight;
+                farthest = farthest.max(off);
+            }
+        }
+        let part = |of: f64, all: f64| if all > 0.0 { of / all } else { 0.0 };
+        Ok(SphereFit {
+            max_standoff: most,
+            mean_standoff: part(sum, weights),
+            uncovered_fraction: part(uncovered, area),
+            max_uncovered: farthest,
+        })
+    }
+
+    /// The distance of a point from the nearest piece, m; 0 inside.
+    fn distance(&self, point: Point) -> f64 {
+        // A single point is a shape unless it is out of range, where the pieces would be, too.
+        let Ok(own) = ConvexShape::of_points(&[point]) else { return 0.0 };
+        let least = |piece: &Piece| norm(sub(point, piece.about.centre)) - piece.about.radius;
+        let mut order: Vec<(f64, &Piece)> = self.pieces.iter().map(|p| (least(p), p)).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut found = f64::INFINITY;
+        for (least, piece) in order {
+            if least >= found {
+                break;
+            }
+            found = found.min(apart(&piece.shape, &own, &Isometry3::identity()));
+        }
+        if found.is_finite() { found } else { 0.0 }
+    }
+}
+
+fn piece(mesh: &Mesh) -> Result<Piece, ShapeError> {
+    let shape = ConvexShape::of_points(&mesh.vertices)?;
+    Ok(Piece { about: about(shape.centre(), &mesh.vertices), shape, planes: Planes::of(mesh) })
+}
+
+/// The centroids of the equal parts of a triangle, with the area of each.
+fn centroids(corners: [Point; 3], size: f64, mut each: impl FnMut(Point, f64)) {
+    let [a, b, c] = corners;
+    let (along, beside) = (sub(b, a), sub(c, a));
+    let area = 0.5 * norm(normal(corners));
+    let longest = [along, beside, sub(c, b)].map(norm).into_iter().fold(0.0, f64::max);
+    let parts = (PARTS * longest / size).ceil().max(1.0);
+    // No edge is longer than the size.
+    if !(area > 0.0 && parts <= PARTS + 1.0) {
+        return;
+    }
+    let count = parts as u32;
+    let at = |u: f64, v: f64| add(a, add(scaled(along, u / parts), scaled(beside, v / parts)));
+    let part = area / (parts * parts);
+    for row in 0..count {
+        for column in 0..count - row {
+            let (u, v) = (f64::from(column), f64::from(row));
+            each(at(u + 1.0 / 3.0, v + 1.0 / 3.0), part);
+            if row + column + 1 < count {
+                each(at(u + 2.0 / 3.0, v + 2.0 / 3.0), part);
+            }
+        }
     }
 }

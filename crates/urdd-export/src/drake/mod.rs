@@ -2,12 +2,8 @@
 //! collision filter groups.
 
 mod joints;
-mod loops;
-mod transmissions;
 
 use std::collections::BTreeMap;
-
-use joints::Driven;
 
 use crate::names::check_package;
 use crate::urdf::is_of_loops;
@@ -15,10 +11,12 @@ use crate::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, add_attributes, empty_robot, links, push_unknown,
 };
 use crate::{Export, ExportError, Files, Format, Note, Structure, Subject, Taken, Yaml};
-pub(super) use joints::is_free;
+use joints::Driven;
 use urdd_format::urdf::UrdfModule;
 use urdd_xml::other_parts::Owner;
 use urdd_xml::writer::Element;
+
+pub(super) use joints::is_free;
 
 const WORLD: &str = "the root link is called `world`, which is Drake's own; Drake's collision filter groups do not hold it, so that pairs with it are checked";
 
@@ -42,10 +40,10 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         robot.push(element);
     }
     robot.extend(joints.frames);
-    robot.extend(loops::constraints(subject, &mut notes)?);
+    robot.extend(joints::constraints(subject, &mut notes)?);
     let others = urdf.unknown_elements.iter().filter(|text| !is_of_loops(text)).cloned();
     let others: Vec<String> = others.collect();
-    let mut kept = transmissions::kept(&others, &joints.driven, &mut notes);
+    let mut kept = joints::kept(&others, &joints.driven, &mut notes);
     lost += push_unknown(&mut robot, &kept.texts, IN_ROBOT);
     robot.extend(kept.others(&subject.structure));
     if lost > 0 {
@@ -71,11 +69,11 @@ pub(super) fn actuators(urdf: &UrdfModule, of: &Structure) -> Vec<String> {
     let is_fixed = |joint: usize| of.view.joints[joint].num_dofs() == 0 || of.follows_fixed(joint);
     let is_of_one = |joint: usize| {
         let view = &of.view.joints[joint];
-        view.num_dofs() == 1 && !transmissions::is_weak(view)
+        view.num_dofs() == 1 && !joints::is_weak(view)
     };
     let of_one = names(&|joint| is_of_one(joint) && !is_fixed(joint));
     let driven = Driven { of_one, fixed: names(&is_fixed) };
-    let mut kept = transmissions::kept(&urdf.unknown_elements, &driven, &mut Vec::new());
+    let mut kept = joints::kept(&urdf.unknown_elements, &driven, &mut Vec::new());
     kept.others(of);
     kept.order
 }
@@ -112,7 +110,6 @@ pub(super) fn groups(subject: &Subject, taken: &mut Taken) -> Vec<Element> {
     partners.into_iter().map(group).collect()
 }
 
-/// The files, if a package is asked for.
 fn package_files(subject: &Subject) -> Result<Files, ExportError> {
     let (Some(package), Some(file)) = (&subject.options.package, &subject.options.file) else {
         return Ok(Files::new());

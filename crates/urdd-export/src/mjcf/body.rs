@@ -4,24 +4,23 @@ use std::collections::HashSet;
 
 use nalgebra::Isometry3;
 
-use super::{inertia, surface};
 use crate::gains::positive;
 use crate::meshes::{Looks, looks};
 use crate::names::last;
 use crate::shapes::thick;
-use crate::{ExportError, FlatShapes, MeshFiles, MeshFormat, Moves, Note, Shape, Solid, Subject};
-use urdd_document::robot::Joint;
-use urdd_format::urdf::{Joint as Source, JointType};
+use crate::{
+    ExportError, FlatShapes, MeshFiles, MeshFormat, Moves, Note, Shape, Solid, Subject, inertia,
+    meshes,
+};
+use urdd_format::urdf::JointType;
 use urdd_geometry::primitives::Primitive;
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 
-/// The name of the free joint of a floating base.
 const FLOATING_BASE: &str = "floating_base";
 
 const INVISIBLE: &str = "visual geometry without area, which MuJoCo refuses; it is left out";
 
-/// The bodies, and the assets, files and notes that come with them.
 pub(super) struct Bodies<'a> {
     subject: &'a Subject<'a>,
     shapes: Vec<Vec<Shape>>,
@@ -135,7 +134,7 @@ impl<'a> Bodies<'a> {
         element.extend(site(subject, self.subject.options.chosen.sensors, link));
         element.extend(std::mem::take(&mut self.sites[link]));
         for (mut look, place) in std::mem::take(&mut self.looks.meshes[link]).into_iter().zip(0..) {
-            if !surface::complete(&mut look.part.mesh) {
+            if !meshes::complete(&mut look.part.mesh) {
                 self.invisible.push(subject.links[link].clone());
                 continue;
             }
@@ -168,14 +167,14 @@ impl<'a> Bodies<'a> {
         let name = geom_name(&self.subject.links[link], shape.number);
         let geom = Element::new("geom").with("name", name).with("class", "collision");
         Ok(match shape.solid {
-            Solid::Convex(mesh) | Solid::Mesh(mesh) if surface::is_flat(&mesh) => {
+            Solid::Convex(mesh) | Solid::Mesh(mesh) if meshes::is_flat(&mesh) => {
                 let (pose, cuboid) = self.flat.cuboid(&mesh, shape.number, link, &mut self.notes);
                 primitive(geom, &pose, cuboid)
             }
             Solid::Convex(mesh) | Solid::Mesh(mesh) => {
                 let what = format!("piece_{}", shape.number);
                 let format =
-                    if surface::fits_stl(&mesh) { MeshFormat::Stl } else { MeshFormat::Obj };
+                    if meshes::fits_stl(&mesh) { MeshFormat::Stl } else { MeshFormat::Obj };
                 let path = self.files.add(link, &what, mesh, format)?;
                 let asset = self.asset(path, format);
                 geom.with("type", "mesh").with("mesh", asset)
@@ -184,7 +183,6 @@ impl<'a> Bodies<'a> {
         })
     }
 
-    /// The name of the asset of a mesh.
     fn asset(&mut self, path: String, format: MeshFormat) -> String {
         let name = stem(&path);
         if !self.named.insert(path.clone()) {
@@ -199,7 +197,6 @@ impl<'a> Bodies<'a> {
         name
     }
 
-    /// The name of the material of a texture.
     fn material(&mut self, path: String) -> String {
         let name = stem(&path);
         if self.named.insert(path.clone()) {
@@ -250,7 +247,6 @@ fn site(subject: &Subject, sensors: bool, link: usize) -> Option<Element> {
     (is_imu || setup.tools.value.contains(&link)).then(|| site_named(&subject.links[link]))
 }
 
-/// The site of a frame of that name.
 pub(super) fn site_named(frame: &str) -> Element {
     Element::new("site").with("name", frame).with("group", "4")
 }
@@ -275,17 +271,9 @@ const CROSSED: &str =
 
 /// The MJCF joints that together represent a URDF joint, in the order in which MuJoCo applies them.
 fn joints_of(subject: &Subject, index: usize, notes: &mut Vec<Note>) -> Vec<Element> {
-    let (joint, source) = (&subject.view.joints[index], &subject.urdf.joints[index]);
-    let of_one = |kind, notes| {
-        // The inertia of the motor, kg m² or kg.
-        let armature = subject.gains(index).armature;
-        let is_locked = subject.locked_at(index).is_some();
-        let element = of_one(joint, source, is_locked, kind, notes);
-        vec![element.with_some("armature", armature.map(number))]
-    };
-    match joint.joint_type {
-        JointType::Revolute | JointType::Continuous => of_one("hinge", notes),
-        JointType::Prismatic => of_one("slide", notes),
+    match subject.view.joints[index].joint_type {
+        JointType::Revolute | JointType::Continuous => vec![of_one(subject, index, "hinge", notes)],
+        JointType::Prismatic => vec![of_one(subject, index, "slide", notes)],
         _ => subject.names.parts[index].iter().map(of_part).collect(),
     }
 }
@@ -302,13 +290,8 @@ fn of_part((name, moves): &(String, Moves)) -> Element {
         .with_some("axis", axis.map(|axis| numbers(axis.as_slice())))
 }
 
-fn of_one(
-    joint: &Joint,
-    source: &Source,
-    is_locked: bool,
-    kind: &'static str,
-    notes: &mut Vec<Note>,
-) -> Element {
+fn of_one(subject: &Subject, index: usize, kind: &'static str, notes: &mut Vec<Note>) -> Element {
+    let joint = &subject.view.joints[index];
     let mut element = Element::new("joint")
         .with("name", joint.name.as_str())
         .with("type", kind)
@@ -317,14 +300,19 @@ fn of_one(
         Some((lower, upper)) if lower < upper => {
             element = element.with("range", numbers(&[lower, upper]));
         }
-        Some(_) if is_locked => notes.push(Note::joint(&joint.name, LOCKED)),
+        Some(_) if subject.locked_at(index).is_some() => {
+            notes.push(Note::joint(&joint.name, LOCKED))
+        }
         Some(_) => notes.push(Note::joint(&joint.name, CROSSED)),
         None => {}
     }
     let effort = positive(joint.limit.and_then(|limit| limit.effort));
-    let dynamics = source.dynamics.as_ref();
+    let dynamics = subject.urdf.joints[index].dynamics.as_ref();
+    // The inertia of the motor, kg m² or kg.
+    let armature = subject.gains(index).armature;
     element
         .with_some("actuatorfrcrange", effort.map(|effort| numbers(&[-effort, effort])))
         .with_some("damping", positive(dynamics.and_then(|d| d.damping)).map(number))
         .with_some("frictionloss", positive(dynamics.and_then(|d| d.friction)).map(number))
+        .with_some("armature", armature.map(number))
 }

@@ -6,21 +6,21 @@
 //! equality constraints with chains resolved, which MuJoCo enforces only in simulation: a caller that sets positions must
 //! set those of mimic joints too. MuJoCo's own parent-child filter is switched off, so that the pairs are those of the
 //! URDD. MuJoCo never checks two rigidly connected bodies, those without a joint between them.
+//!
+//! Kinematic loops are equality constraints too: `connect` and `weld` between sites, and polynomials of joints. Sites say where
+//! the ends are; a `connect` of two bodies takes the second end from the pose of the model, in which loops may be open.
 
 pub(super) mod actuators;
 mod body;
-#[doc(hidden)]
-pub mod inertia;
-mod keyframes;
-mod loops;
-#[doc(hidden)]
-pub mod surface;
 
-use body::{Bodies, geom_name};
+use nalgebra::Translation3;
 
+use crate::joints::{Closing, LeftOut, OTHER_KIND, closings as loops_of, is_linear, names};
 use crate::output::fill;
-use crate::{Export, ExportError, Files, Note, Stand, Subject};
+use crate::{Export, ExportError, Files, Note, Stand, Subject, Taken};
+use body::{Bodies, geom_name, placed, site_named};
 use urdd_document::tree::RigidGroups;
+use urdd_format::loops::{Coupling, LoopKind};
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::{Element, escaped, head};
 
@@ -34,7 +34,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let scene_of = subject.options.file.as_ref().filter(|_| options.scene);
     let stand = Stand::new(subject, scene_of.is_some())?;
     let mut bodies = Bodies::new(subject)?;
-    let closings = loops::closings(subject, &mut bodies.notes)?;
+    let closings = closings(subject, &mut bodies.notes)?;
     bodies.sites = closings.sites;
     let world = bodies.world(stand.base_height)?;
     let mut notes = bodies.notes;
@@ -50,7 +50,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let flag = Element::new("flag").with("filterparent", "disable");
     let mut option = Element::new("option").holding(flag);
     if !closings.equalities.is_empty() {
-        option = option.with("integrator", loops::INTEGRATOR);
+        option = option.with("integrator", INTEGRATOR);
     } else if options.actuators.is_some() {
         // The damping of actuators is integrated implicitly: it is stable for light links too.
         option = option.with("integrator", "implicitfast");
@@ -72,7 +72,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     if options.sensors {
         root.push_filled(body::sensors(subject));
     }
-    root.push_filled(keyframes::keyframes(subject, options.actuators, &stand)?);
+    root.push_filled(actuators::keyframes(subject, options.actuators, &stand)?);
     let mut files = bodies.files.into_files();
     if let Some(file) = scene_of {
         files.extend(scene(subject, file, &stand)?);
@@ -133,9 +133,7 @@ fn equality(subject: &Subject, notes: &mut Vec<Note>) -> Element {
             // Stiffer than a mimic: an arm sags by less than 1e-4 rad.
             equality.push(held.with("polycoef", coefficients).with("solimp", "0.999 0.999 0.001"));
         }
-        let Some(mimic) = &subject.mimics.by_joint[index] else {
-            continue;
-        };
+        let Some(mimic) = &subject.mimics.by_joint[index] else { continue };
         let driver = &subject.view.joints[mimic.driver];
         let mut element = Element::new("joint").with("joint1", joint.name.as_str());
         let factor = match driver.num_dofs() {
@@ -159,7 +157,6 @@ fn equality(subject: &Subject, notes: &mut Vec<Note>) -> Element {
 /// Names of our geoms have a slash: none is called as the floor.
 const SCENE: &str = include_str!("scene.xml.in");
 
-/// The scene that includes a file.
 fn scene(subject: &Subject, file: &str, stand: &Stand) -> Result<Files, ExportError> {
     let stem = file.strip_suffix(".xml").unwrap_or(file);
     let floor = number(stand.floor);
@@ -168,4 +165,105 @@ fn scene(subject: &Subject, file: &str, stand: &Stand) -> Result<Files, ExportEr
         [("ROBOT", escaped(&subject.urdf.name)), ("FILE", escaped(file)), ("FLOOR", floor)];
     let text = head(&subject.comments(what, &[])?) + &fill(SCENE, &values);
     Ok(vec![(format!("{stem}_scene.xml"), text.into_bytes())])
+}
+
+/// Nearly as stiff as MuJoCo's time step of 2 ms lets it be, whatever the mass of a rod: three times that, critically damped.
+const SOLREF: &str = "0.006 1";
+/// The largest impedance that MuJoCo takes.
+const SOLIMP: &str = "0.9999 0.9999 0.001";
+
+/// Rods of some grams that swing fast are stable only with the derivatives of their Coriolis forces, which `implicitfast`
+/// leaves out.
+const INTEGRATOR: &str = "implicit";
+
+const OTHER_SUM: &str =
+    "equality constraints are of one joint, or of one as a polynomial of another";
+
+#[derive(Default)]
+struct Closings {
+    /// For each link, its sites.
+    sites: Vec<Vec<Element>>,
+    equalities: Vec<Element>,
+}
+
+fn closings(subject: &Subject, notes: &mut Vec<Note>) -> Result<Closings, ExportError> {
+    let mut made = Closings { sites: vec![Vec::new(); subject.links.len()], ..Closings::default() };
+    let mut left_out = LeftOut::default();
+    let Some(module) = subject.robot.loops()? else { return Ok(made) };
+    let names = names(subject.format, module);
+    let mut taken = Taken::new(names.iter());
+    for closing in loops_of(subject, &mut left_out)? {
+        if !made.hold(subject, &closing, &mut taken) {
+            left_out.of_loop(&closing.of.name, OTHER_KIND);
+        }
+    }
+    for (coupling, name) in module.couplings.iter().zip(&names[module.loops.len()..]) {
+        match equation(subject, coupling, name)? {
+            Some(element) => made.equalities.push(element),
+            None => left_out.coupling(&coupling.name, OTHER_SUM),
+        }
+    }
+    notes.extend(left_out.notes());
+    Ok(made)
+}
+
+impl Closings {
+    /// Adds what holds a loop; false for a kind that nothing holds.
+    fn hold(&mut self, subject: &Subject, closing: &Closing, taken: &mut Taken) -> bool {
+        let Some(points) = closing.points() else { return false };
+        let word = if closing.of.kind == LoopKind::Fixed { "weld" } else { "connect" };
+        for (number, along) in points.iter().enumerate() {
+            let own = match number {
+                0 => closing.name.clone(),
+                _ => taken.free(format!("{}/{number}", closing.name)),
+            };
+            let mut element = Element::new(word).with("name", own);
+            for ((key, end), on) in [("site1", "a"), ("site2", "b")].into_iter().zip(closing.ends) {
+                // Our names of sites have two slashes and the number of the loop.
+                let name = format!("loop/{}/{end}{number}", closing.number);
+                let name = subject.names.taken.clone().free(name);
+                let pose = on.pose * Translation3::new(0.0, 0.0, *along);
+                self.sites[on.link].push(placed(site_named(&name), &pose));
+                element = element.with(key, name);
+            }
+            self.equalities.push(stiff(element));
+        }
+        true
+    }
+}
+
+/// A coupling as an equality of one joint, or of two. `None` if it is of more, or of no joint as a polynomial of the other.
+fn equation(
+    subject: &Subject,
+    coupling: &Coupling,
+    name: &str,
+) -> Result<Option<Element>, ExportError> {
+    let names = subject.robot.dof_names()?;
+    let joint = |dof: usize| {
+        let name = names.get(dof)?;
+        subject.view.joints.iter().find(|joint| joint.name == *name && joint.num_dofs() == 1)
+    };
+    let (follower, leader) = match &coupling.terms[..] {
+        [one] if is_linear(&one.coefficients) => (one, None),
+        [one, other] if is_linear(&other.coefficients) => (other, Some(one)),
+        [one, other] if is_linear(&one.coefficients) => (one, Some(other)),
+        _ => return Ok(None),
+    };
+    let Some(joint1) = joint(follower.dof_idx.get()) else { return Ok(None) };
+    let factor = -1.0 / follower.coefficients[0];
+    let mut polynomial = [coupling.constant * factor, 0.0, 0.0, 0.0, 0.0];
+    let mut element = Element::new("joint").with("name", name).with("joint1", joint1.name.as_str());
+    if let Some(leader) = leader {
+        let Some(joint2) = joint(leader.dof_idx.get()) else { return Ok(None) };
+        element = element.with("joint2", joint2.name.as_str());
+        for (to, coefficient) in polynomial[1..].iter_mut().zip(leader.coefficients) {
+            *to = coefficient * factor;
+        }
+    }
+    let is_finite = polynomial.iter().all(|number| number.is_finite());
+    Ok(is_finite.then(|| stiff(element.with("polycoef", numbers(&polynomial)))))
+}
+
+fn stiff(element: Element) -> Element {
+    element.with("solref", SOLREF).with("solimp", SOLIMP)
 }

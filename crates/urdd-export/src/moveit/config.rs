@@ -11,14 +11,11 @@ use urdd_format::urdf::{JointType, Limit};
 use urdd_xml::Node;
 use urdd_xml::element::children;
 
-/// What the files of the package have in common.
 pub(super) struct Config<'a> {
     pub subject: &'a Subject<'a>,
-    /// The name of the package.
     pub package: &'a str,
     pub ros: Ros,
     pub setup: &'a Setup,
-    /// The name of files.
     pub name: String,
     /// The joints of each group that move, in joint order.
     pub joints: Vec<Vec<usize>>,
@@ -126,16 +123,13 @@ impl Command {
     }
 }
 
-/// The interfaces of a joint.
 #[derive(Debug, Clone)]
 struct Interfaces {
     commands: [bool; 3],
     tells_velocity: bool,
 }
 
-/// The interfaces of joints.
 pub(super) struct Hardware {
-    /// By joint.
     joints: Vec<Interfaces>,
     /// Whether the source has hardware.
     pub is_of_source: bool,
@@ -144,7 +138,7 @@ pub(super) struct Hardware {
 impl Hardware {
     /// That of the source. A joint without any takes positions; a group of continuous joints that is no chain, such as
     /// wheels, takes velocities.
-    pub fn new(subject: &Subject, setup: &Setup, groups: &[Vec<usize>]) -> Self {
+    fn new(subject: &Subject, setup: &Setup, groups: &[Vec<usize>]) -> Self {
         let all = &subject.view.joints;
         let mut joints =
             vec![Interfaces { commands: [true, false, false], tells_velocity: true }; all.len()];
@@ -183,12 +177,10 @@ impl Hardware {
         self.commands(joint).next()
     }
 
-    /// Whether a joint tells its velocity.
     pub fn tells_velocity(&self, joint: usize) -> bool {
         self.joints[joint].tells_velocity
     }
 
-    /// All that a joint takes.
     pub fn commands(&self, joint: usize) -> impl Iterator<Item = Command> {
         let has = self.joints[joint].commands;
         Command::ALL.into_iter().zip(has).filter(|(_, has)| *has).map(|(command, _)| command)

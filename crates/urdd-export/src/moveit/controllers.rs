@@ -4,7 +4,6 @@ use super::config::{Command, Config};
 use crate::yaml::{head, quoted};
 use crate::{ExportError, Limited, Note, Ros, Taken, Yaml};
 
-/// How MoveIt executes trajectories.
 const EXECUTION: &str = include_str!("moveit_controllers.yaml.in");
 
 /// The controller that says where joints are.
@@ -12,7 +11,6 @@ const BROADCASTER: &str = "joint_state_broadcaster";
 
 const NO_TRAJECTORIES: &str = "MoveIt sends it no trajectories, since not all of its joints take positions; config/ros2_controllers.yaml has what drives those that take velocity or effort";
 
-/// A controller of a group.
 pub(super) struct Controller {
     name: String,
     joints: Vec<usize>,
@@ -137,12 +135,10 @@ pub(super) fn files(
     ])
 }
 
-/// The names of the controllers that are started.
 pub(super) fn names(controllers: &[Controller]) -> impl Iterator<Item = &str> {
     controllers.iter().map(|controller| controller.name.as_str())
 }
 
-/// The packages of the controllers.
 pub(super) fn packages(controllers: &[Controller], ros: Ros) -> impl Iterator<Item = &'static str> {
     controllers.iter().map(move |controller| controller.plugin(ros)[0])
 }
@@ -160,7 +156,7 @@ pub(super) fn notes(config: &Config, controllers: &[Controller]) -> Vec<Note> {
     let moved = controllers.iter().filter(|controller| controller.action(ros).is_some());
     let moved: Vec<usize> = moved.flat_map(|controller| controller.joints.clone()).collect();
     let unlimited = Limited::ALL.into_iter().filter_map(|what| {
-        let is_without = |joint: &&usize| config.limits(**joint)[what.index()].is_none();
+        let is_without = |joint: &&usize| config.limits(**joint)[what as usize].is_none();
         let joints = moved.iter().filter(is_without);
         let joints: Vec<String> = joints.map(|joint| config.joint(*joint).to_owned()).collect();
         (!joints.is_empty()).then_some(Note::Unlimited { what, joints, ros })

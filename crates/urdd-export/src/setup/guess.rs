@@ -3,9 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use super::guesser::{Chains, FINGER, Guesser, with_side};
-use super::words::{self, Part};
-use super::{Curobo, EndEffector, Gains, Guess, Members, Setup};
+use super::guesser::{Chains, FINGER, Guesser, Part, with_side};
+use super::{Curobo, EndEffector, Gains, Guess, Members, Setup, guesser};
 use crate::{ExportError, Structure};
 use urdd_format::readable::counted;
 use urdd_format::urdf::JointType;
@@ -67,7 +66,7 @@ impl Guesser<'_> {
             None => (false, "it has neither legs nor wheels"),
         };
         let links = self.structure.view.links.iter().enumerate();
-        let imus = links.filter(|(_, link)| words::is_imu(&link.name)).map(|(link, _)| link);
+        let imus = links.filter(|(_, link)| guesser::is_imu(&link.name)).map(|(link, _)| link);
         Setup {
             of: self.structure.identity(),
             floating: Guess {
@@ -248,8 +247,8 @@ impl Guesser<'_> {
         let is_gripper = fingers.iter().all(is_single)
             && !self
                 .palm(fingers)
-                .is_some_and(|palm| words::is_hand(&self.structure.view.links[palm].name));
-        let side = words::side(names(&all).iter().map(String::as_str));
+                .is_some_and(|palm| guesser::is_hand(&self.structure.view.links[palm].name));
+        let side = guesser::side(names(&all).iter().map(String::as_str));
         let kind = if is_gripper { "gripper" } else { "hand" };
         let name = with_side(side.as_deref(), kind);
         let chains: Vec<(Option<String>, usize, usize)> = fingers
@@ -258,7 +257,7 @@ impl Guesser<'_> {
             .map(|finger| &self.chains.all[*finger])
             .filter(|finger| finger.joints.len() > 1 && finger.children.is_empty())
             .map(|finger| {
-                let word = words::finger(names(&finger.joints).iter().map(String::as_str));
+                let word = guesser::finger(names(&finger.joints).iter().map(String::as_str));
                 (word, finger.base, finger.last)
             })
             .collect();

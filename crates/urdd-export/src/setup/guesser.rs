@@ -1,15 +1,13 @@
-//! What is known while guessing, and what all guesses ask.
+//! What is known while guessing, and what all guesses ask: chains of joints, and what words in names say of them.
 
 use nalgebra::Isometry3;
 
-use super::words::{self, Part};
 use super::{EndEffector, Group, Guess, Members};
 use crate::Structure;
 
 /// The longest finger, m.
 pub(super) const FINGER: f64 = 0.25;
 
-/// What is known while guessing.
 pub(super) struct Guesser<'a> {
     pub structure: &'a Structure,
     pub poses: &'a [Isometry3<f64>],
@@ -54,12 +52,12 @@ impl Guesser<'_> {
         let links = &self.structure.view.links;
         let is_frame = |link: &usize| {
             let link = &links[*link];
-            link.visual.is_empty() && link.collision.is_empty() && words::is_tool(&link.name)
+            link.visual.is_empty() && link.collision.is_empty() && is_tool(&link.name)
         };
         let best = |link: usize| {
             let fixed = self.structure.fixed_to(link);
             let frames: Vec<usize> = fixed[1..].iter().copied().filter(is_frame).collect();
-            let tool0 = frames.iter().find(|frame| words::is_tool0(&links[**frame].name));
+            let tool0 = frames.iter().find(|frame| is_tool0(&links[**frame].name));
             tool0.or(frames.last()).copied()
         };
         palm.and_then(best).or_else(|| best(last)).unwrap_or(palm.unwrap_or(last))
@@ -90,11 +88,11 @@ impl Guesser<'_> {
     }
 
     pub fn part_of(&self, chain: usize) -> Option<Part> {
-        words::part(self.names(chain))
+        part(self.names(chain))
     }
 
     pub fn named(&self, chain: usize, kind: &str) -> String {
-        with_side(words::side(self.names(chain)).as_deref(), kind)
+        with_side(side(self.names(chain)).as_deref(), kind)
     }
 }
 
@@ -177,4 +175,108 @@ impl Chains {
         joints.sort_unstable();
         joints
     }
+}
+
+/// What a name says of a part of a robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    Leg,
+    Arm,
+    Head,
+    Torso,
+    Hand,
+}
+
+const PARTS: &[(Part, &[&str])] = &[
+    (Part::Leg, &["leg", "hip", "knee", "ankle", "thigh", "calf", "shank", "foot"]),
+    (Part::Arm, &["arm", "shoulder", "elbow"]),
+    (Part::Head, &["head", "neck"]),
+    (Part::Torso, &["torso", "waist", "trunk", "spine", "lift"]),
+    (Part::Hand, &["hand", "finger", "thumb", "knuckle", "gripper"]),
+];
+
+const SIDES: &[&str] = &[
+    "left", "right", "l", "r", "front", "rear", "hind", "fl", "fr", "rl", "rr", "bl", "br", "lf",
+    "rf", "lh", "rh", "hl", "hr",
+];
+
+const FINGERS: &[&str] = &["thumb", "index", "middle", "ring", "pinky", "little"];
+
+const TOOLS: &[&str] = &["tool", "tool0", "tcp", "grasp", "grasping", "ee", "eef", "tip", "flange"];
+
+/// The words of a name in lower case: `FL_hipJoint` has fl, hip and joint.
+pub fn words(name: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let mut before = '_';
+    for c in name.chars() {
+        if !c.is_alphanumeric() || (before.is_lowercase() && c.is_uppercase()) {
+            words.push(String::new());
+        }
+        if c.is_alphanumeric()
+            && let Some(word) = words.last_mut()
+        {
+            word.extend(c.to_lowercase());
+        }
+        before = c;
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
+
+/// What most of the names say that say something.
+pub fn part<'n>(names: impl Iterator<Item = &'n str>) -> Option<Part> {
+    let mut counts = [0; PARTS.len()];
+    for name in names {
+        let words = words(name);
+        for ((_, of_part), count) in PARTS.iter().zip(&mut counts) {
+            *count += usize::from(words.iter().any(|word| of_part.contains(&word.as_str())));
+        }
+    }
+    let most = counts.iter().copied().max().filter(|most| *most > 0)?;
+    let place = counts.iter().position(|count| *count == most)?;
+    Some(PARTS[place].0)
+}
+
+/// The sides that all names have in common, such as `front_left`.
+pub fn side<'n>(names: impl Iterator<Item = &'n str>) -> Option<String> {
+    shared(names, SIDES)
+}
+
+/// The finger that all names mean.
+pub(super) fn finger<'n>(names: impl Iterator<Item = &'n str>) -> Option<String> {
+    shared(names, FINGERS)
+}
+
+fn shared<'n>(names: impl Iterator<Item = &'n str>, known: &[&str]) -> Option<String> {
+    let mut common: Option<Vec<String>> = None;
+    for name in names {
+        let own = words(name);
+        match &mut common {
+            None => {
+                let own = own.into_iter().filter(|word| known.contains(&word.as_str()));
+                common = Some(own.collect());
+            }
+            Some(common) => common.retain(|word| own.contains(word)),
+        }
+    }
+    common.filter(|common| !common.is_empty()).map(|common| common.join("_"))
+}
+
+pub(super) fn is_hand(name: &str) -> bool {
+    words(name).iter().any(|word| word == "hand" || word == "palm")
+}
+
+/// Whether a name is that of a tool frame.
+pub fn is_tool(name: &str) -> bool {
+    words(name).iter().any(|word| TOOLS.contains(&word.as_str()))
+}
+
+/// Whether a name is that of the tool frame of ROS-Industrial.
+fn is_tool0(name: &str) -> bool {
+    words(name).iter().any(|word| word == "tool0")
+}
+
+/// Whether a name is that of an inertial measurement unit.
+pub fn is_imu(name: &str) -> bool {
+    words(name).iter().any(|word| word == "imu")
 }

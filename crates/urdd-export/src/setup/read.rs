@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use toml::Spanned;
 
-use super::file::{Placed, SetupError, wrong};
-use super::gains::BANDWIDTH;
-use super::gains::{Chosen, by_breadth, is_pattern, stands_for};
-use super::{Curobo, EndEffector, Gains, Group, Guess, Members, Setup, contains_itself, within};
+use super::{
+    BANDWIDTH, Chosen, Curobo, EndEffector, Gains, Group, Guess, Members, Placed, Setup,
+    SetupError, by_breadth, contains_itself, is_pattern, stands_for, within, wrong,
+};
 use crate::Structure;
 use crate::error::unknown;
 use urdd_directory::export_toml::{EndEffectorTable, File, GroupTable, JointGains, Name};
@@ -324,7 +324,6 @@ fn advice(message: &str) -> &'static str {
     }
 }
 
-/// A number in a range.
 fn ranged(range: Range, value: Option<&Spanned<f64>>) -> Placed<Option<f64>> {
     let check = |value: &Spanned<f64>| {
         range.check(*value.get_ref()).or_else(|error| wrong(value, error.to_string()))

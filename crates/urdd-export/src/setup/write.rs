@@ -2,8 +2,7 @@
 
 use std::fmt::Write;
 
-use super::gains::USUAL_BANDWIDTH;
-use super::{Guess, Members, Setup};
+use super::{Guess, Members, Setup, USUAL_BANDWIDTH};
 use crate::output::fill;
 use crate::yaml::{quoted, real};
 use crate::{ExportError, Structure};

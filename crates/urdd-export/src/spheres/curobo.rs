@@ -22,7 +22,7 @@ const SEVERAL: &str =
 const ACCELERATION: f64 = 15.0;
 const JERK: f64 = 500.0;
 
-pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+pub(crate) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let model = Model::new(subject)?;
     let mut lines = subject.origin()?;
     lines.extend(model.said(&subject.links, subject.options.chosen.cover));

@@ -1,27 +1,24 @@
-//! The description of spheres in files and notes, as sentences and as JSON.
+//! Spheres as sentences and as JSON, in files and notes: what is said of them, Foam's format (`mean`, `best`, `worst`, `spheres`)
+//! with additional metadata, and a URDF of them.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::measure::Measured;
-
-use super::{Model, Point, kept};
-use crate::{Note, Subject};
+use super::{Level, Measured, Model, Point};
+use crate::subject::by_link;
+use crate::{Export, ExportError, Note, Subject, urdf};
 use urdd_format::escape;
 use urdd_format::rate::interval;
+use urdd_robot::{LinkShape, Solid};
 use urdd_spheres::fitted::Numbers;
 use urdd_spheres::judge::{MAX_FALSE, MAX_MISSED, SphereRates};
 use urdd_spheres::model::{Sphere, distance};
 
-/// Maximum number of pairs of links that are named.
 const NAMED: usize = 10;
 
 /// Distance between the surface of a link and that of its spheres, in metres.
 pub(super) struct Stand {
-    /// Mean absolute distance.
     pub mean: f64,
-    /// Minimum distance.
     pub best: f64,
-    /// Maximum distance.
     pub worst: f64,
     /// Maximum distance outside all spheres; 0 if no point is outside.
     pub outside: f64,
@@ -52,7 +49,7 @@ impl Model {
             lines.push("No link has shapes, so there are no spheres.".to_owned());
             return lines;
         }
-        lines.extend(self.level.as_ref().map(kept::Level::said));
+        lines.extend(self.level.as_ref().map(Level::said));
         let stands = self.links.iter().zip(&self.surface);
         let stands: Vec<Stand> = stands.map(|((_, own), at)| Stand::new(own, at)).collect();
         let outside = stands.iter().map(|stand| stand.outside).fold(0.0, f64::max);
@@ -63,7 +60,7 @@ impl Model {
         } else {
             format!(
                 "The spheres {}do not cover the links: {:.1} % of the surface is inside a sphere, and a point of it is at most {:.1} mm outside.",
-                if self.level.as_ref().is_some_and(kept::Level::is_given) { "" } else { "are fitted and " },
+                if self.level.as_ref().is_some_and(Level::is_given) { "" } else { "are fitted and " },
                 100.0 * held as f64 / points.max(1) as f64,
                 1000.0 * outside
             )
@@ -176,4 +173,51 @@ pub(super) fn note(model: &Model, subject: &Subject) -> Option<Note> {
     let lines: Vec<String> =
         lines.iter().map(|line| escape::line(line.trim()).into_owned()).collect();
     Some(Note::Spheres(lines.join("; ")))
+}
+
+pub(crate) fn foam(subject: &Subject) -> Result<Export, ExportError> {
+    let model = Model::new(subject)?;
+    let name = |link: usize| subject.links.get(link).cloned().unwrap_or_default();
+    let sphere = |sphere: &Sphere| json!({ "origin": sphere.centre, "radius": sphere.radius });
+    let links = model.links.iter().zip(&model.surface).map(|((link, spheres), surface)| {
+        let stand = Stand::new(spheres, surface);
+        let spheres: Vec<Value> = spheres.iter().map(sphere).collect();
+        let value = json!({
+            "mean": stand.mean,
+            "best": stand.best,
+            "worst": stand.worst,
+            "spheres": spheres,
+        });
+        (name(*link), value)
+    });
+    let links: Map<String, Value> = links.collect();
+    let document = json!({
+        "made_from": subject.origin()?,
+        "about": model.said(&subject.links, subject.options.chosen.cover),
+        "measured": model.measured.json(),
+        "ignored_pairs": model.ignored.iter().map(|pair| pair.map(name)).collect::<Vec<_>>(),
+        "links": links,
+    });
+    let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
+    let text = escape::json(&text).into_owned();
+    Ok(Export::of(text, Vec::new(), note(&model, subject).into_iter().collect()))
+}
+
+pub(crate) fn spherized(subject: &Subject) -> Result<Export, ExportError> {
+    let model = Model::new(subject)?;
+    let mut shapes: Vec<LinkShape> = Vec::new();
+    for (link, spheres) in &model.links {
+        let spheres = spheres.iter().enumerate().map(|(piece, sphere)| LinkShape {
+            link: *link,
+            piece,
+            solid: Solid::Sphere { centre: sphere.centre, radius: sphere.radius },
+        });
+        shapes.extend(spheres);
+    }
+    let shapes = by_link(&subject.described, shapes);
+    let mut notes = note(&model, subject).into_iter().collect();
+    let (robot, files) = urdf::robot(subject, shapes, &mut notes)?;
+    let said = model.said(&subject.links, subject.options.chosen.cover).join(" ");
+    let text = robot.document(&subject.comments(said, &notes)?);
+    Ok(Export::of(text, files, notes))
 }

@@ -1,19 +1,17 @@
-//! Joints between bodies, with limits, drives and mimics.
+//! Joints between bodies, with limits, drives and mimics; and kinematic loops as joints that are not of the articulation.
 
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::custom::elements;
-use super::names::{Filters, Paths};
-use super::prim::{Prim, float, floats, wxyz};
+use super::prim::{Filters, Paths, Prim, elements, float, floats, mend, wxyz};
 use crate::gains::positive;
-use crate::joints::moved;
-use crate::loops::Followers;
+use crate::joints::{Closing, Followers, moved, range};
 use crate::names::last;
 use crate::{Gains, Note, Subject};
 use urdd_directory::export_toml::ActuatorKind;
 use urdd_document::robot::Joint;
+use urdd_format::loops::LoopKind;
 use urdd_format::urdf::{JointType, Limit};
 use urdd_kinematics::rotation::{planar_basis, unit_axis};
 
@@ -28,7 +26,6 @@ const OTHER: &str = "it mimics a joint of another kind, for which Newton's schem
 
 const UNLIMITED: &str = "it mimics a joint, and one of the two has no limits: PhysX couples only joints with limits, so that it moves freely there; Newton couples them";
 
-/// The axes of a generic joint.
 const AXES: [&str; 6] = ["transX", "transY", "transZ", "rotX", "rotY", "rotZ"];
 
 pub(super) struct Joints<'a> {
@@ -43,7 +40,6 @@ pub(super) struct Joints<'a> {
     pub values: HashMap<&'a str, f64>,
 }
 
-/// How a joint moves.
 enum Motion {
     /// Not at all, at that position of a joint of one DOF.
     Fixed(f64),
@@ -104,7 +100,6 @@ impl Joints<'_> {
         }
     }
 
-    /// The prim of a joint.
     pub fn prim(&self, index: usize, notes: &mut Vec<Note>) -> Prim {
         let subject = self.subject;
         let (joint, name) = (&subject.view.joints[index], last(&self.paths.joints[index]));
@@ -135,7 +130,10 @@ impl Joints<'_> {
             Motion::One { instance, unit, axis, .. } => {
                 let token = aligned(&axis).0;
                 prim.set("uniform token physics:axis", format!("\"{token}\""));
-                self.limit(index, unit, &mut prim, notes);
+                if let Some((lower, upper)) = range(joint, CROSSED, notes) {
+                    prim.set("float physics:lowerLimit", float(lower * unit));
+                    prim.set("float physics:upperLimit", float(upper * unit));
+                }
                 self.inner(index, unit, &mut prim);
                 self.drive(index, instance, unit, &mut prim);
                 self.mimic(index, token, unit, &mut prim, notes);
@@ -146,18 +144,6 @@ impl Joints<'_> {
             }
         }
         prim
-    }
-
-    fn limit(&self, index: usize, unit: f64, prim: &mut Prim, notes: &mut Vec<Note>) {
-        let joint = &self.subject.view.joints[index];
-        match joint.position_limits() {
-            Some((lower, upper)) if lower > upper => notes.push(Note::joint(&joint.name, CROSSED)),
-            Some((lower, upper)) => {
-                prim.set("float physics:lowerLimit", float(lower * unit));
-                prim.set("float physics:upperLimit", float(upper * unit));
-            }
-            None => {}
-        }
     }
 
     /// Damping, friction, the motor's inertia and the greatest velocity, for Newton and for PhysX.
@@ -192,9 +178,7 @@ impl Joints<'_> {
             prim.apply(format!("PhysicsJointStateAPI:{instance}"));
             prim.set(&format!("float state:{instance}:physics:position"), float(position * unit));
         }
-        let Some(gains) = self.drives.as_ref().and_then(|drives| drives[index]) else {
-            return;
-        };
+        let Some(gains) = self.drives.as_ref().and_then(|drives| drives[index]) else { return };
         prim.apply(format!("PhysicsDriveAPI:{instance}"));
         let mut set = |name: &str, value: f64| {
             prim.set(&format!("float drive:{instance}:physics:{name}"), float(value));
@@ -210,9 +194,7 @@ impl Joints<'_> {
     }
 
     fn mimic(&self, index: usize, axis: &str, unit: f64, prim: &mut Prim, notes: &mut Vec<Note>) {
-        let Some(mimic) = self.followers.mimic(self.subject, index) else {
-            return;
-        };
+        let Some(mimic) = self.followers.mimic(self.subject, index) else { return };
         let joints = &self.subject.view.joints;
         let mut note = |what| notes.push(Note::joint(&joints[index].name, what));
         let [own, other] = [index, mimic.driver].map(|index| &joints[index]);
@@ -301,4 +283,48 @@ pub(super) fn connect(
         prim.set(&format!("point3f physics:localPos{place}"), position);
         prim.set(&format!("quatf physics:localRot{place}"), floats(&wxyz(&frame.rotation)));
     }
+}
+
+/// Why a universal joint is left out.
+pub(super) const UNIVERSAL: &str =
+    "USD does not say in which order a generic joint turns about its axes";
+
+/// The prim of a loop's joint; `None` of a universal joint.
+pub(super) fn closing_prim(
+    subject: &Subject,
+    paths: &Paths,
+    name: String,
+    closing: &Closing,
+) -> Option<Prim> {
+    const CYLINDER: [bool; 6] = [false, false, true, false, false, true];
+    const PLANE: [bool; 6] = [true, true, false, false, false, true];
+    let (kind, free) = match closing.of.kind {
+        LoopKind::Fixed => ("PhysicsFixedJoint", None),
+        LoopKind::Revolute => ("PhysicsRevoluteJoint", None),
+        LoopKind::Prismatic => ("PhysicsPrismaticJoint", None),
+        LoopKind::Spherical => ("PhysicsSphericalJoint", None),
+        LoopKind::Cylindrical => ("PhysicsJoint", Some(CYLINDER)),
+        LoopKind::Planar => ("PhysicsJoint", Some(PLANE)),
+        LoopKind::Universal => return None,
+    };
+    let mut prim = Prim::new(kind, name);
+    if mend(&closing.of.name) != closing.of.name {
+        prim.show(&closing.of.name);
+    }
+    let [a, b] = closing.ends;
+    let frames = [a.pose, b.pose];
+    connect(&mut prim, Some(&paths.links[a.link]), &paths.links[b.link], &frames);
+    prim.set("bool physics:excludeFromArticulation", "1");
+    let is_checked = |links: [usize; 2]| links == [a.link, b.link] || links == [b.link, a.link];
+    if subject.pairs.iter().any(|pair| !pair.disabled && is_checked(pair.links)) {
+        prim.set("bool physics:collisionEnabled", "1");
+    }
+    match (closing.of.kind, free) {
+        (_, Some(free)) => generic(&mut prim, free),
+        (LoopKind::Revolute | LoopKind::Prismatic, None) => {
+            prim.set("uniform token physics:axis", "\"Z\"");
+        }
+        (_, None) => {}
+    }
+    Some(prim)
 }

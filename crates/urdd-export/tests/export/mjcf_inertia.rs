@@ -1,8 +1,7 @@
 //! Masses and inertias of bodies, in their links' frames.
 
 use urdd_document::robot::{Inertial, Origin};
-use urdd_export::inertia::Odd;
-use urdd_export::mjcf::inertia::Mass;
+use urdd_export::inertia::{self, Mass, Odd};
 
 fn of(mass: f64, [xx, yy, zz]: [f64; 3]) -> (Option<Mass>, Option<Odd>) {
     let inertial = Inertial {
@@ -10,7 +9,7 @@ fn of(mass: f64, [xx, yy, zz]: [f64; 3]) -> (Option<Mass>, Option<Odd>) {
         mass: Some(mass),
         inertia: Some([xx, 0.0, 0.0, yy, 0.0, zz]),
     };
-    urdd_export::mjcf::inertia::mass(&inertial)
+    inertia::mass(&inertial)
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Meshes that MuJoCo's compiler accepts. What it refuses was found with MuJoCo 4.0.
 
-use urdd_export::mjcf::surface::{complete, fits_stl, is_flat};
+use urdd_export::meshes::{complete, fits_stl, is_flat};
 use urdd_geometry::Mesh;
 
 fn mesh(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Mesh {

@@ -1,6 +1,6 @@
 //! Words in names: what a chain is, and on which side.
 
-use urdd_export::setup::words::*;
+use urdd_export::setup::guesser::*;
 
 #[test]
 fn names_say_parts_and_sides() {

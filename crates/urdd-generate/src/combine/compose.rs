@@ -27,7 +27,6 @@ pub(super) struct Member<'a> {
 }
 
 impl Member<'_> {
-    /// A name of the part as it appears in the combined robot.
     pub fn renamed(&self, name: &str) -> String {
         format!("{}{name}", self.part.prefix.text)
     }
@@ -52,7 +51,7 @@ impl Member<'_> {
         links.filter(|(idx, _)| self.trim.keeps_link(*idx)).map(|(_, link)| link)
     }
 
-    pub fn kept_joints(&self) -> impl Iterator<Item = &Joint> {
+    fn kept_joints(&self) -> impl Iterator<Item = &Joint> {
         let joints = self.loaded.robot.joints.iter().enumerate();
         joints.filter(|(idx, _)| self.trim.keeps_joint(*idx)).map(|(_, joint)| joint)
     }
@@ -262,7 +261,6 @@ fn joint(described: &Attachment, parent: &str, child: &str) -> String {
     text + "  </joint>\n"
 }
 
-/// Builds the `composition_module`.
 pub(super) fn composition(
     recipe: &Recipe,
     parts: &[Member],

@@ -11,7 +11,6 @@ use urdd_directory::position::Position;
 use urdd_format::escape;
 use urdd_format::nearest::nearest;
 
-/// What the steps of combining return.
 pub(super) type Result<T, E = CombineError> = std::result::Result<T, E>;
 
 /// Why robots cannot be combined. Nothing was written, and an existing URDD is unchanged.
@@ -70,13 +69,11 @@ impl From<Cancelled> for CombineError {
     }
 }
 
-/// The part that a message is about.
 fn about(id: Option<&String>) -> String {
     let id = id.filter(|id| !id.is_empty());
     id.map_or_else(String::new, |id| format!("part `{}`: ", escape::line(id)))
 }
 
-/// The suggestion of a similar name, if there is one.
 pub(super) fn did_you_mean<'a>(known: impl Iterator<Item = &'a str>, name: &str) -> String {
     nearest(known, name).map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }

@@ -7,13 +7,10 @@
 mod compose;
 mod decisions;
 mod error;
-mod from_legacy;
 mod legacy;
-mod meshes;
 mod names;
 mod part;
 mod recipe;
-mod recipe_check;
 mod recipe_file;
 mod rewrite;
 mod sources;
@@ -23,20 +20,20 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use self::compose::Member;
-use self::error::Result;
-use self::meshes::Meshes;
-use self::names::LeftAlone;
-use self::rewrite::{Rewrite, Rewritten};
-use self::sources::SourceKind;
 use crate::given::GivenDecisions;
 use crate::robot::generate_composed;
 use crate::{GenerateError, Generated, MOST_LINKS, Progress, Settings};
+use compose::Member;
+use error::Result;
+use names::LeftAlone;
+use part::Meshes;
+use rewrite::{Rewrite, Rewritten};
+use sources::SourceKind;
 use urdd_directory::cancellation::Cancelled;
 use urdd_directory::temporary::Temporary;
 use urdd_format::composition::CompositionModule;
 use urdd_format::registry::ModuleKind;
-use urdd_source::note::{self as generated, NoteKind};
+use urdd_source::note::NoteKind;
 use urdd_source::origin::has_quaternions;
 use urdd_source::{named, read_urdf};
 
@@ -141,7 +138,7 @@ pub fn combine(
     for ((member, placed), repeated) in parts.iter().zip(placed).zip(&repeated) {
         settings.cancellation.check()?;
         let carried = placed.into_iter();
-        let carried = carried.map(|(name, place)| (name, meshes::carried(&place, &shared)));
+        let carried = carried.map(|(name, place)| (name, part::carried(&place, &shared)));
         let text = Rewrite {
             loaded: &member.loaded,
             trim: &member.trim,
@@ -182,8 +179,7 @@ pub fn combine(
     let generated = generate_composed(urdf.into_bytes(), place, given, target, &settings, progress);
     let mut generated = generated.map_err(|error| CombineError::Generate { id: None, error })?;
     // The notes about the parts already say that.
-    let is_said = |note: &generated::Note| note.kind == NoteKind::MeshNotFound;
-    generated.notes.retain(|note| !is_said(note));
+    generated.notes.retain(|note| note.kind != NoteKind::MeshNotFound);
     Ok(Combined { generated, composition, notes })
 }
 

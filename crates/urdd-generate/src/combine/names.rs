@@ -64,7 +64,6 @@ pub(super) enum Named {
     Material,
     /// A link or joint with this name.
     Either,
-    /// The element itself.
     Own,
 }
 
@@ -261,7 +260,6 @@ pub(super) fn mesh_edits(document: &Document, names: &BTreeMap<String, String>) 
     edits
 }
 
-/// Escapes text for an attribute or an element.
 pub(super) fn escaped(text: &str) -> String {
     urdd_xml::escape(text).into_owned()
 }

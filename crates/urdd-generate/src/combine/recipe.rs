@@ -163,7 +163,6 @@ pub(super) fn fixed() -> Word {
 }
 
 impl Part {
-    /// The whole of a robot.
     pub(super) fn new(
         id: String,
         source: PathBuf,

@@ -16,7 +16,6 @@ use urdd_xml::{Kind, parse};
 /// The rewritten text of a part, and what to report about it.
 #[derive(Debug)]
 pub(super) struct Rewritten {
-    /// The content of `<robot>`.
     pub inner: String,
     /// The XML namespaces that `<robot>` declares, by prefix; an empty prefix for the default namespace.
     pub namespaces: Vec<(String, String)>,
@@ -195,7 +194,6 @@ fn removal(text: &str, range: &Range<usize>) -> Edit {
     Edit { range: before..range.end, text: String::new() }
 }
 
-/// The content of `<robot>`.
 fn inner(text: &str) -> Result<String, String> {
     let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
     let root = document.root_element();

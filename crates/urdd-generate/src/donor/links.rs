@@ -13,7 +13,7 @@ use crate::context::Context;
 use crate::error::Result;
 use crate::made::{Digests, MadeFile};
 use crate::meshes::original::OriginalMeshes;
-use crate::meshes::written::{Shading, WrittenMesh, files_of, read_glb};
+use crate::meshes::{Shading, WrittenMesh, files_of, read_glb};
 use crate::shapes::{ConvexMeshes, Shape};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;

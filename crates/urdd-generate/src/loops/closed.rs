@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::made::Made;
+use super::Made;
 use crate::error::Result;
 use urdd_kinematics::loops::{Gap, Loops, NotClosed, Scratch};
 use urdd_kinematics::rotation::{from_rotation_vector, to_rotation_vector};
@@ -17,8 +17,6 @@ const AROUND: u64 = 8;
 const ASIDE: f64 = 0.3;
 /// In how many parts the way to a sample is gone.
 const PARTS: u32 = 8;
-/// Most work for the loops of a robot, in the unit of [`Loops::work`]: some seconds.
-pub(super) const MOST_SPENT: u64 = 20_000_000_000;
 /// A loop whose smallest gap is larger does not close, m by the reach, and rad.
 const OPEN: f64 = 1e-4;
 

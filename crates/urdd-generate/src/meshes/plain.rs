@@ -1,19 +1,26 @@
-//! `plain_meshes_module` from the URDF and its mesh files: SPEC 7.2 and 7.4.
+//! `plain_meshes_module` from the URDF and its mesh files: SPEC 7.2 and 7.4; how large links may be, and which elements shapes
+//! are made of, where that is not what a person may expect.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
+use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use crate::size::{TriangleBudget, check_resolved};
+use crate::context::Context;
+use crate::error::first_names;
 use urdd_format::colors::Colors;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::original_meshes::OriginalMeshesModule;
+use urdd_format::plain_meshes::PlainMeshesModule;
+use urdd_format::short::Short;
 use urdd_format::urdf::{Geometry, Link, Material, Origin, UrdfModule};
 use urdd_geometry::mesh::placement;
 use urdd_geometry::read::{Part, Scene};
 use urdd_geometry::{Mesh, primitives};
 use urdd_source::fault::Fault;
+use urdd_source::note::{Note, NoteKind};
 use urdd_source::origin;
 
 /// The geometry of a link: its triangles by colour, in the link's frame.
@@ -194,4 +201,132 @@ fn tidy(mut mesh: Mesh, place: &nalgebra::Matrix4<f64>) -> Mesh {
     mesh.drop_degenerate();
     mesh.drop_unused_vertices();
     mesh
+}
+
+/// Maximum number of triangles of a link: its .obj stays below the 512 MiB that URDD readers accept.
+pub const MOST_LINK_TRIANGLES: usize = 3_000_000;
+
+/// Maximum number of triangles of all links together.
+pub const MOST_TRIANGLES: usize = 10_000_000;
+
+/// Minimum ratio of a shape's width to its largest coordinate. Files store coordinates as binary32, and readers assume
+/// an accuracy of eight steps of that, some 1e-6. A thinner shape has no width for them.
+const LEAST_WIDTH: f64 = 4e-6;
+
+/// Counts the triangles of links before they are built: even a tiny URDF can reference a mesh or a sphere many times.
+#[derive(Debug, Default)]
+struct TriangleBudget(AtomicUsize);
+
+impl TriangleBudget {
+    /// Adds the triangles of a link. Returns whether all links so far are within the budget.
+    fn take(&self, link: &str, triangles: usize) -> Result<bool, Fault> {
+        if triangles > MOST_LINK_TRIANGLES {
+            return Err(Fault::TooManyTriangles {
+                link: link.into(),
+                found: triangles,
+                limit: MOST_LINK_TRIANGLES,
+            });
+        }
+        let before = self.0.fetch_add(triangles, Ordering::Relaxed);
+        Ok(before + triangles <= MOST_TRIANGLES)
+    }
+
+    /// # Errors
+    /// If all links together have too many.
+    fn check(&self) -> Result<(), Fault> {
+        if self.0.load(Ordering::Relaxed) > MOST_TRIANGLES {
+            return Err(Fault::TooManyTrianglesInAll { limit: MOST_TRIANGLES });
+        }
+        Ok(())
+    }
+}
+
+/// Refuses a link whose shape would have no width in its mesh files.
+fn check_resolved(link: &str, parts: &[Part]) -> Result<(), Fault> {
+    let vertices = || parts.iter().flat_map(|part| &part.mesh.vertices);
+    let mut largest = 0.0_f64;
+    for vertex in vertices() {
+        largest = vertex.iter().fold(largest, |most, x| most.max(x.abs()));
+    }
+    let width = width(vertices().map(|vertex| Vector3::from(*vertex)));
+    if width > LEAST_WIDTH * largest {
+        return Ok(());
+    }
+    Err(Fault::Unresolved { link: link.into() })
+}
+
+/// The largest distance of a point from a line through two distant points; 0 without points.
+fn width(points: impl Iterator<Item = Vector3<f64>> + Clone) -> f64 {
+    let Some(first) = points.clone().next() else { return 0.0 };
+    let farthest = |distance: &dyn Fn(&Vector3<f64>) -> f64| {
+        points.clone().map(|point| distance(&point)).fold(0.0, f64::max)
+    };
+    let length = farthest(&|point| (point - first).norm());
+    let Some(last) = points.clone().find(|point| (point - first).norm() >= length) else {
+        return 0.0;
+    };
+    let along = (last - first) / length;
+    farthest(&|point| (point - first).cross(&along).norm())
+}
+
+/// Notes about the links that collide by their visual elements, and about a robot in which nothing can collide.
+pub(crate) fn notes(context: &Context, plain: &PlainMeshesModule) -> Vec<Note> {
+    let links = &context.source.reading.robot.links;
+    let note = |problem: String, assumed: &str| {
+        vec![context.note(NoteKind::GeometryTaken, problem, assumed)]
+    };
+    if plain.link_meshes.iter().all(Option::is_none) {
+        // A single link has no pair, whatever it is made of.
+        if links.len() < 2 {
+            return Vec::new();
+        }
+        let problem = "no link has a visual or collision element with a surface";
+        return note(problem.to_owned(), "nothing can collide: there is no pair to check");
+    }
+    let is_visual = |link: usize| {
+        let mesh = plain.link_meshes.get(link).and_then(Option::as_ref);
+        mesh.is_some_and(|mesh| mesh.geometry == GeometryKind::Visual)
+    };
+    let taken = |collides: bool| {
+        let all = links.iter().enumerate();
+        let those =
+            all.filter(|(at, link)| is_visual(*at) && link.collision.is_empty() != collides);
+        those.map(|(_, link)| link.name.as_str()).collect::<Vec<_>>()
+    };
+    let (instead, only) = (taken(true), taken(false));
+    let mut notes = Vec::new();
+    if links.iter().all(|link| link.collision.is_empty()) {
+        let problem = "no link has a collision element".to_owned();
+        let assumed =
+            format!("the collision shapes of {} are made of visual elements", listed(&only));
+        notes.extend(note(problem, &assumed));
+    } else if !only.is_empty() {
+        let problem = format!("{} {} no collision element", listed(&only), has(&only));
+        notes.extend(note(problem, "collision shapes are made of visual elements there"));
+    }
+    if !instead.is_empty() {
+        let problem =
+            format!("{} {} visual and collision elements", listed(&instead), has(&instead));
+        let assumed = match plain.preferred_geometry {
+            GeometryKind::Visual => {
+                "collision shapes are made of the visual elements; `--geometry collision` takes the collision elements"
+            }
+            GeometryKind::Collision => {
+                "collision shapes are made of the visual elements, since the collision elements cannot be used"
+            }
+        };
+        notes.extend(note(problem, assumed));
+    }
+    notes
+}
+
+fn has(names: &[&str]) -> &'static str {
+    if names.len() == 1 { "has" } else { "have" }
+}
+
+/// The number of these links and the names of the first.
+fn listed(names: &[&str]) -> String {
+    let links = if names.len() == 1 { "link" } else { "links" };
+    let shown = first_names(names.iter().map(|name| Short::of(name)));
+    format!("{} {links} ({shown})", names.len())
 }

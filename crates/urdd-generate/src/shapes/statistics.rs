@@ -8,10 +8,9 @@ use rayon::prelude::*;
 use super::{ConvexMeshes, MOST_PIECES_WITH_MATRICES, seven_digits};
 use crate::context::Context;
 use crate::error::Result;
-use crate::made::{Shared, streamed};
-use crate::meshes::written::WrittenMesh;
+use crate::made::{self, Shared, streamed};
+use crate::meshes::WrittenMesh;
 use crate::settings::Settings;
-use crate::shape_documents;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::chain::ChainModule;
 use urdd_format::index::Count;
@@ -57,7 +56,7 @@ pub(crate) fn statistics(
         decomposition_obbs,
         decomposition_bounding_spheres,
     });
-    let mut made = streamed(shape_documents::statistics(&module), Arc::clone(&module))?;
+    let mut made = streamed(made::statistics(&module), Arc::clone(&module))?;
     if module.decomposition_convex_hulls.is_none() {
         let pieces = module.decomposition_shapes.len();
         made.notes.push(context.note(

@@ -3,8 +3,7 @@
 use urdd_format::chain::ChainModule;
 use urdd_format::connections::ConnectionsModule;
 use urdd_format::index::LinkIdx;
-use urdd_generate::chain::chain_module;
-use urdd_generate::connections::*;
+use urdd_generate::kinematics::*;
 use urdd_source::urdf;
 use urdd_xml::Xml;
 

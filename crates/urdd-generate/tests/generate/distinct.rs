@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use urdd_directory::cancellation::{Cancellation, Cancelled};
-use urdd_generate::distinct::*;
+use urdd_generate::meshes::*;
 use urdd_geometry::Mesh;
 use urdd_geometry::primitives::cuboid;
 

@@ -14,7 +14,7 @@ use urdd_format::link_shapes_simple_skips::{SkipReason, SkipReasons};
 use urdd_format::link_shapes_skips::LinkShapesSkipsModule as SkipsModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_format::shapes::PieceShape;
-use urdd_generate::shape_documents::*;
+use urdd_generate::made::*;
 
 fn assert_whole(document: &Document, module: &impl Serialize) {
     let whole = serde_json::to_value(module).unwrap();

@@ -1,7 +1,7 @@
 //! A cell of a link: convex parts, and their smallest enclosing sphere.
 
 use nalgebra::Vector3;
-use urdd_spheres::cover::cell::*;
+use urdd_spheres::cover::*;
 
 fn box_of(size: [f64; 3]) -> Vec<[f64; 3]> {
     let corner = |k: usize| std::array::from_fn(|axis| size[axis] * ((k >> axis & 1) as f64));
@@ -12,7 +12,7 @@ fn box_of(size: [f64; 3]) -> Vec<[f64; 3]> {
 fn the_spheres_of_a_bar_hold_it_and_shrink() {
     let mut cells = vec![Cell::new(&[box_of([1.0, 0.1, 0.1])])];
     for _ in 0..7 {
-        assert!(urdd_spheres::cover::cut(&mut cells).is_some());
+        assert!(cut(&mut cells).is_some());
     }
     let last: f64 = cells.iter().map(|cell| volume(&cell.sphere)).sum();
     // Eight cubes of 0.125 x 0.1 x 0.1 would be best.

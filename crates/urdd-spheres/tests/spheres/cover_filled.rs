@@ -1,8 +1,7 @@
 //! The volume of a union of spheres.
 
 use urdd_geometry::bounding_sphere::BoundingSphere;
-use urdd_spheres::cover::cell::volume;
-use urdd_spheres::cover::filled::*;
+use urdd_spheres::cover::{filled, volume};
 
 #[test]
 fn the_union_of_two_spheres_by_its_closed_form() {

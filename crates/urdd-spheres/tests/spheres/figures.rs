@@ -3,8 +3,8 @@
 use crate::cuboid;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::link_shapes_spheres::SphereFit;
-use urdd_spheres::figures::Pieces;
 use urdd_spheres::model::Sphere;
+use urdd_spheres::surface::Pieces;
 
 fn fit(pieces: &Pieces, spheres: &[Sphere]) -> SphereFit {
     pieces.fit(spheres, &Cancellation::default()).expect("not cancelled")

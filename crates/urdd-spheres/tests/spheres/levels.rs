@@ -2,8 +2,8 @@
 
 use crate::cuboid;
 use urdd_geometry::vector::{norm, sub};
-use urdd_spheres::levels::{COUNTS, around, covering};
 use urdd_spheres::model::Sphere;
+use urdd_spheres::module::{COUNTS, around, covering};
 
 #[test]
 fn each_level_is_inside_the_one_before_and_holds_every_point() {

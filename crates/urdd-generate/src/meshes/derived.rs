@@ -2,15 +2,14 @@
 
 use rayon::prelude::*;
 
-use super::context::Context;
-use super::distinct::for_each_content;
-use super::donor::links::LinkMesh;
-use super::error::Result;
-use super::made::{Made, MadeFile, made_with};
-use super::meshes::original::OriginalMeshes;
-use super::meshes::plain::link_geometries;
-use super::meshes::written::{Meshes, Pieces, Shading, WrittenMesh, files_of};
-use super::settings::Settings;
+use super::original::OriginalMeshes;
+use super::plain::link_geometries;
+use super::{Meshes, Pieces, Shading, WrittenMesh, files_of, for_each_content};
+use crate::context::Context;
+use crate::donor::links::LinkMesh;
+use crate::error::Result;
+use crate::made::{Made, MadeFile, made_with};
+use crate::settings::Settings;
 use urdd_format::convex_decomposition_meshes::{
     ConvexDecompositionMeshesModule, DecompositionMethod,
 };
@@ -24,7 +23,7 @@ use urdd_geometry::{Mesh, decompose};
 /// The solids of each link for which a donor has some.
 type Taken = Vec<Option<Vec<LinkMesh>>>;
 
-pub(super) fn plain(
+pub(crate) fn plain(
     context: &Context,
     original: Option<&OriginalMeshes>,
     taken: &[Option<(GeometryKind, LinkMesh)>],
@@ -62,7 +61,7 @@ pub(super) fn plain(
     made_with(&module, files.into_iter().flatten().collect(), meshes)
 }
 
-pub(super) fn hulls(
+pub(crate) fn hulls(
     context: &Context,
     plain: &[Option<WrittenMesh>],
     taken: Taken,
@@ -86,9 +85,9 @@ pub(super) fn hulls(
 }
 
 /// Name of the decomposition method; changed whenever its results change.
-pub(super) const DECOMPOSITION: &str = "urdd cut and merge 2";
+pub(crate) const DECOMPOSITION: &str = "urdd cut and merge 2";
 
-pub(super) fn decomposition(settings: &Settings) -> decompose::Settings {
+pub(crate) fn decomposition(settings: &Settings) -> decompose::Settings {
     decompose::Settings {
         max_pieces: usize::from(settings.pieces.most),
         standoff_tolerance: settings.pieces.tolerance.unwrap_or(0.0),
@@ -96,7 +95,7 @@ pub(super) fn decomposition(settings: &Settings) -> decompose::Settings {
     }
 }
 
-pub(super) fn pieces(
+pub(crate) fn pieces(
     context: &Context,
     plain: &[Option<WrittenMesh>],
     taken: Taken,
@@ -155,7 +154,6 @@ fn solids(
     links.collect()
 }
 
-/// Names and writes the solids of each link.
 fn write(
     context: &Context,
     kind: ModuleKind,

@@ -1,24 +1,100 @@
-//! `link_shapes_skips_module`: SPEC 8.7. And what checks for self-collision do not see: pairs of links that are skipped
-//! because they touch in one configuration, and that are apart in others.
+//! `link_shapes_simple_skips_module`, SPEC 8.6, and `link_shapes_skips_module`, SPEC 8.7. And what checks for self-collision do
+//! not see: pairs of links that are skipped because they touch in one configuration, and that are apart in others.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::context::Context;
-use super::error::Result;
-use super::made::{Shared, streamed};
-use super::shape_documents;
-use super::shapes::statistics::{Shapes, distances_at, sampled_motion};
+use super::statistics::{Shapes, distances_at, sampled_motion};
+use crate::context::Context;
+use crate::error::Result;
+use crate::made::{self, Shared, streamed};
+use urdd_format::link_shapes_distance_statistics::{
+    DistanceStatistics, LinkShapesDistanceStatisticsModule,
+};
 use urdd_format::link_shapes_simple_skips::{
-    CONTACT, LinkShapesSimpleSkipsModule as SimpleSkips, SkipReason,
+    CONTACT, LinkShapesSimpleSkipsModule as SimpleSkips, SeenPair, SkipReason, SkipReasons,
 };
 use urdd_format::link_shapes_skips::{LinkShapesSkipsModule as Skips, SkipEdit};
 use urdd_format::short::Short;
 use urdd_format::skips::{HiddenContacts, TouchesIn, skips_module};
 use urdd_geometry::convex::pair_distances;
 use urdd_source::note::{Note, NoteKind};
+
+type Reasons = Vec<Vec<SkipReason>>;
+
+pub(crate) fn simple_skips(
+    context: &Context,
+    shapes: &Shapes,
+    statistics: &LinkShapesDistanceStatisticsModule,
+) -> Shared<SimpleSkips> {
+    let name = "the default configuration";
+    let default = distances_at(context, shapes, name, &context.space.default_configuration())?;
+    let joined: HashSet<[usize; 2]> = context
+        .chain
+        .joints_in_chain
+        .iter()
+        .map(|joint| [joint.parent_link_idx.get(), joint.child_link_idx.get()])
+        .collect();
+    let full: Vec<usize> = statistics.full_shapes.iter().map(|l| l.get()).collect();
+    let pieces: Vec<usize> =
+        statistics.decomposition_shapes.iter().map(|piece| piece.link_idx.get()).collect();
+    let of_full =
+        |kind: usize, of: &DistanceStatistics| reasons(&full, of, &default[kind], &joined);
+    let of_pieces = |kind: usize, of: &Option<DistanceStatistics>| {
+        let both = of.as_ref().zip(default.get(kind));
+        both.map(|(of, default)| reasons(&pieces, of, default, &joined))
+    };
+    let reasons = SkipReasons {
+        full_convex_hulls: of_full(0, &statistics.full_convex_hulls),
+        full_obbs: of_full(1, &statistics.full_obbs),
+        full_bounding_spheres: of_full(2, &statistics.full_bounding_spheres),
+        decomposition_convex_hulls: of_pieces(3, &statistics.decomposition_convex_hulls),
+        decomposition_obbs: of_pieces(4, &statistics.decomposition_obbs),
+        decomposition_bounding_spheres: of_pieces(5, &statistics.decomposition_bounding_spheres),
+    };
+    let of_pieces = |reasons: &Option<Reasons>| reasons.as_ref().map(skips);
+    let module = Arc::new(SimpleSkips {
+        full_shapes: statistics.full_shapes.clone(),
+        decomposition_shapes: statistics.decomposition_shapes.clone(),
+        full_convex_hulls_simple_skips: skips(&reasons.full_convex_hulls),
+        full_obbs_simple_skips: skips(&reasons.full_obbs),
+        full_bounding_spheres_simple_skips: skips(&reasons.full_bounding_spheres),
+        decomposition_convex_hulls_simple_skips: of_pieces(&reasons.decomposition_convex_hulls),
+        decomposition_obbs_simple_skips: of_pieces(&reasons.decomposition_obbs),
+        decomposition_bounding_spheres_simple_skips: of_pieces(
+            &reasons.decomposition_bounding_spheres,
+        ),
+        reasons,
+    });
+    streamed(made::simple_skips(&module), module)
+}
+
+/// The reason of each pair. `links[i]` is the link of shape i.
+fn reasons(
+    links: &[usize],
+    statistics: &DistanceStatistics,
+    default: &[Vec<f64>],
+    joined: &HashSet<[usize; 2]>,
+) -> Reasons {
+    let reason = |i: usize, j: usize| {
+        let (a, b) = (links[i], links[j]);
+        let seen = SeenPair {
+            is_same_link: a == b,
+            is_joined: joined.contains(&[a, b]) || joined.contains(&[b, a]),
+            range: [statistics.min_distances[i][j], statistics.max_distances[i][j]],
+            at_default: default[i][j],
+        };
+        seen.reason()
+    };
+    let all = 0..links.len();
+    all.clone().map(|i| all.clone().map(|j| reason(i, j)).collect()).collect()
+}
+
+fn skips(reasons: &Reasons) -> Vec<Vec<bool>> {
+    reasons.iter().map(|row| row.iter().map(|reason| reason.is_simple()).collect()).collect()
+}
 
 /// Maximum number of pairs of links that a note names.
 const MOST_NAMED: usize = 5;
@@ -80,7 +156,7 @@ fn of_reference<'a>(
 }
 
 /// Builds the module. Edits that follow from the reference configuration come first, then those of a person.
-pub(super) fn edited_skips<'a>(
+pub(crate) fn edited_skips<'a>(
     context: &Context,
     shapes: impl FnOnce() -> Result<&'a Shapes>,
     simple: &SimpleSkips,
@@ -90,7 +166,7 @@ pub(super) fn edited_skips<'a>(
     let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
     let edits = [by_reference, context.edits.kept.clone()].concat();
     let module = Arc::new(skips_module(simple, context.skipped_reasons(), edits, &names));
-    let mut made = streamed(shape_documents::skips(&module), module)?;
+    let mut made = streamed(made::skips(&module), module)?;
     let lost = context.edits.lost.iter().map(|edit| {
         let problem = format!(
             "the previous URDD has an edit of the skips between `{}` and `{}`, but the robot no longer has both links",
@@ -103,7 +179,7 @@ pub(super) fn edited_skips<'a>(
 }
 
 /// Notes about the pairs of links that are skipped because they touch in the default configuration, or in the reference.
-pub(super) fn notes<'a>(
+pub(crate) fn notes<'a>(
     context: &Context,
     shapes: impl FnOnce() -> Result<&'a Shapes>,
     simple: &SimpleSkips,

@@ -1,17 +1,65 @@
-//! Imports an SRDF: its pairs as skip edits, its group states as named configurations.
+//! SRDF of a robot: the pairs of links that MoveIt does not check, written, and read as skip edits; and group states, read as
+//! named configurations. The package of MoveIt writes groups and other elements.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use thiserror::Error;
-use urdd_xml::Node;
 
-use crate::ExportError;
 use crate::error::unknown;
 use crate::pairs::{ascending, last_edits};
+use crate::{Export, ExportError, LinkPair, Subject};
+use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_robot::{Robot, RobotError, ShapeKind};
 use urdd_srdf::{LeftOut, ReadError, Srdf, elements};
+use urdd_xml::Node;
+use urdd_xml::writer::Element;
+
+pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+    let mut robot = Element::new("robot").with("name", subject.urdf.name.as_str());
+    push_pairs(subject, &mut robot);
+    let notes = subject.notes();
+    let text = robot.document(&subject.comments(basis(subject)?, &notes)?);
+    Ok(Export::of(text, Vec::new(), notes))
+}
+
+pub(super) fn push_pairs(subject: &Subject, robot: &mut Element) {
+    robot.extend(subject.disabled().map(|pair| disabled(subject, pair)));
+}
+
+fn disabled(subject: &Subject, pair: &LinkPair) -> Element {
+    let links = pair.links.map(|link| subject.links[link].as_str());
+    urdd_srdf::write::disabled(links, reason(subject, pair))
+}
+
+/// The reason as MoveIt's Setup Assistant writes it: `Adjacent` for two links that a joint connects, even if they are
+/// always in contact.
+fn reason(subject: &Subject, pair: &LinkPair) -> &'static str {
+    let [a, b] = pair.links;
+    let parent = &subject.tree.parent_link;
+    let adjacent = parent[a] == Some(b) || parent[b] == Some(a);
+    match (&pair.edit, pair.reason) {
+        (Some(_), _) => "User",
+        (_, Some(SkipReason::Always)) if adjacent => "Adjacent",
+        (_, Some(SkipReason::Always | SkipReason::SameLink)) => "Always",
+        (_, Some(SkipReason::Adjacent)) => "Adjacent",
+        (_, Some(SkipReason::Default)) => "Default",
+        (_, Some(SkipReason::Never)) => "Never",
+        // A pair of which only some shapes are skipped has no reason of its own.
+        (_, Some(SkipReason::None) | None) => "User",
+    }
+}
+
+pub(super) fn basis(subject: &Subject) -> Result<String, RobotError> {
+    let shapes = subject.shapes;
+    Ok(match subject.robot.num_samples()? {
+        Some(samples) => {
+            format!("Reasons by {shapes}; Always and Never by {samples} sampled configurations.")
+        }
+        None => format!("Reasons by {shapes}."),
+    })
+}
 
 /// Errors of taking an SRDF into a URDD.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -82,9 +130,7 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
     }
     for (name, skip) in [("enable_collisions", false), ("disable_collisions", true)] {
         for node in srdf.elements(name) {
-            let (Some(a), Some(b)) = (link(node, "link1"), link(node, "link2")) else {
-                continue;
-            };
+            let (Some(a), Some(b)) = (link(node, "link1"), link(node, "link2")) else { continue };
             let reason = match node.attribute("reason") {
                 Some(reason) if !reason.trim().is_empty() => format!("SRDF: {}", reason.trim()),
                 _ => "SRDF".to_owned(),
@@ -106,9 +152,7 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
     };
     for (pair, (skip, reason)) in &wanted {
         // A link without shapes needs no edit.
-        let Some(all_are) = now.get(pair) else {
-            continue;
-        };
+        let Some(all_are) = now.get(pair) else { continue };
         if *all_are == Some(*skip) {
             imported.already += 1;
             continue;
@@ -190,9 +234,7 @@ pub fn import_states(robot: &Robot, text: &str, force: bool) -> Result<ImportedS
     let mut states: Vec<(String, BTreeMap<usize, DofPosition>)> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();
     for node in srdf.elements("group_state") {
-        let Some(name) = wrong.attribute(node, "name") else {
-            continue;
-        };
+        let Some(name) = wrong.attribute(node, "name") else { continue };
         let place = *places.entry(name.to_owned()).or_insert(states.len());
         if place == states.len() {
             states.push((name.to_owned(), BTreeMap::new()));
