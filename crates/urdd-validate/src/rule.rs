@@ -2,8 +2,7 @@
 
 use std::ops::Deref;
 
-use super::context::Context;
-use super::described::Described;
+use super::context::{Context, Described};
 use urdd_findings::code::Code;
 use urdd_findings::description::{Consequence, Description};
 use urdd_findings::finding::Findings;
@@ -108,82 +107,54 @@ pub const fn of_family(code: &str) -> Consequence {
     }
 }
 
-/// Declares the rules of a file, each as an associated constant of `Declared` with its code as its name. A rule is
-/// checked by the function that it names, otherwise by the file's function `check`; `of Robot` makes it a rule of URDFs
+/// Declares the rules of a file, as its `RULES`, each with the function that checks it; `of Robot` makes it a rule of URDFs
 /// without a URDD, too. `urdd explain` prints its documentation.
 macro_rules! declare_rule {
     ($(
         $(#[doc = $doc:literal])+
         $code:ident $name:literal, $severity:ident, clause $clause:literal, since $since:literal,
         phase $phase:ident, $(consequence $consequence:ident,)?
-        needs [$($need:expr),* $(,)?], $(of $of:ident,)? $(check $check:expr,)?
+        needs [$($need:expr),* $(,)?], $(of $of:ident,)? check $check:expr,
     )+) => {
-        /// The rules of this file. A `static` of the module would be compiled into whatever does not use it, too.
-        pub struct Declared;
-
-        impl Declared {
-            /// All of them.
-            pub const RULES: &'static [&'static $crate::rule::Rule] = &[$(Self::$code),+];
-
-            $(
-                $(#[doc = $doc])+
-                pub const $code: &'static $crate::rule::Rule = &{
-                    #[allow(unused_imports)]
-                    use $crate::needs::*;
-                    #[allow(unused_imports)]
-                    use $crate::rule::Need::*;
-                    #[allow(unused_imports)]
-                    use urdd_findings::code::Code::*;
-                    $crate::rule::Rule {
-                        description: urdd_findings::description::Description {
-                            code: urdd_findings::code::Code::$code,
-                            name: $name,
-                            severity: urdd_findings::description::Severity::$severity,
-                            clause: Some($clause),
-                            since: $since,
-                            consequence: {
-                                #[allow(unused_variables)]
-                                let consequence = $crate::rule::of_family(stringify!($code));
-                                $(let consequence = urdd_findings::description::Consequence::$consequence;)?
-                                consequence
-                            },
-                            phase: urdd_findings::description::Phase::$phase,
-                            doc: &[$($doc),+],
-                        },
-                        needs: &[$($need),*],
-                        check: $crate::rule::check_of!($($of)? $(=> $check)?),
-                    }
-                };
-            )+
-        }
+        /// The rules of this file. A `static` would be compiled into whatever does not use it, too.
+        pub const RULES: &[&$crate::rule::Rule] = &[$({
+            #[allow(unused_imports)]
+            use $crate::needs::*;
+            #[allow(unused_imports)]
+            use $crate::rule::Need::*;
+            #[allow(unused_imports)]
+            use urdd_findings::code::Code::*;
+            &$crate::rule::Rule {
+                description: urdd_findings::description::Description {
+                    code: urdd_findings::code::Code::$code,
+                    name: $name,
+                    severity: urdd_findings::description::Severity::$severity,
+                    clause: Some($clause),
+                    since: $since,
+                    consequence: {
+                        #[allow(unused_variables)]
+                        let consequence = $crate::rule::of_family(stringify!($code));
+                        $(let consequence = urdd_findings::description::Consequence::$consequence;)?
+                        consequence
+                    },
+                    phase: urdd_findings::description::Phase::$phase,
+                    doc: &[$($doc),+],
+                },
+                needs: &[$($need),*],
+                check: $crate::rule::check_of!($check $(, $of)?),
+            }
+        }),+];
     };
 }
 pub(crate) use declare_rule;
 
-/// The check that a rule names, otherwise the function `check` of its file; of a URDD, unless the rule says of what.
+/// A check of a URDD, unless the rule says of what it is.
 macro_rules! check_of {
-    () => {
-        $crate::rule::check_of!(Urdd => check)
+    ($check:expr) => {
+        $crate::rule::CheckOf::Urdd($check)
     };
-    ($of:ident) => {
-        $crate::rule::check_of!($of => check)
-    };
-    (=> $check:expr) => {
-        $crate::rule::check_of!(Urdd => $check)
-    };
-    ($of:ident => $check:expr) => {
+    ($check:expr, $of:ident) => {
         $crate::rule::CheckOf::$of($check)
     };
 }
 pub(crate) use check_of;
-
-/// Lists the rules of a family by their files, as `rules()`.
-macro_rules! rules {
-    ($($file:ident),+ $(,)?) => {
-        /// The rules of this family.
-        pub fn rules() -> Vec<&'static $crate::rule::Rule> {
-            [$($file::Declared::RULES),+].concat()
-        }
-    };
-}
-pub(crate) use rules;

@@ -7,12 +7,8 @@ pub mod cut;
 pub mod derived;
 pub mod expected;
 pub mod file;
-pub mod glb_chunks;
-pub mod original;
 pub mod placed;
 pub mod polytope;
-pub mod primitive;
-pub mod stl_records;
 
 use std::collections::HashMap;
 use std::hash::{BuildHasher, RandomState};
@@ -20,7 +16,7 @@ use std::hash::{BuildHasher, RandomState};
 use rayon::prelude::*;
 
 use self::derived::Derived;
-use self::original::Original;
+use self::file::Original;
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
@@ -36,7 +32,7 @@ pub struct Solids {
 impl Solids {
     /// Reads every mesh file that the modules name, in parallel.
     pub fn read(urdd: &Urdd) -> Self {
-        let mut solids = Solids { originals: original::read_all(urdd), ..Solids::default() };
+        let mut solids = Solids { originals: file::read_originals(urdd), ..Solids::default() };
         for kind in urdd_document::meshes::DERIVED {
             let Some(meshes) = urdd.meshes(*kind) else { continue };
             let read = derived::read_all(urdd, &meshes);

@@ -2,8 +2,7 @@ use std::io::BufReader;
 
 use crate::rules::prelude::*;
 use crate::solids::derived::{DerivedFile, in_words, noun};
-use crate::solids::file::MeshFault;
-use crate::solids::glb_chunks;
+use crate::solids::file::{MeshFault, glb_fault};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_document::mesh_files::MeshFiles;
 use urdd_document::meshes::{Mesh, MeshFormat, Meshes};
@@ -68,7 +67,7 @@ fn glb_not_binary(context: &Context, findings: &mut Findings) -> Option<()> {
         for (_, mesh) in paths.filter(|(_, mesh)| mesh.format == Some(MeshFormat::Glb)) {
             // Other rules report files that cannot be opened.
             let Ok((file, size)) = files.open(meshes.profile, mesh.path) else { continue };
-            if let Ok(Some(fault)) = glb_chunks::fault(BufReader::new(file), size) {
+            if let Ok(Some(fault)) = glb_fault(BufReader::new(file), size) {
                 let message = format!("`{}` is not binary glTF 2.0: {fault}", mesh.path);
                 finding_in(module, &mesh.pointer, message)
                     .values("glTF, version 2, the file's length, and chunks up to its end", fault)

@@ -1,6 +1,5 @@
-use crate::reference::distances::plan;
-use crate::reference::distances::poses::Poses;
-use crate::reference::distances::shape_set::ShapeSet;
+use crate::reference::distances::ShapeSet;
+use crate::reference::samples::{self, Poses};
 use crate::rules::prelude::*;
 use crate::views::judged::JudgedShapes;
 use crate::views::tangled::{CONTACT, Tangled, of_pair, sound_pairs};
@@ -217,7 +216,7 @@ fn skipped_pair_moves_apart(context: &Context, findings: &mut Findings) -> Optio
     let statistics = context.statistics().into_iter().flatten().flatten();
     let sampled = statistics.into_iter().find_map(|one| one.num_samples);
     let pairs: usize = skipped.iter().map(|(_, pairs)| pairs.len()).sum();
-    let work = pairs as u64 * plan::HULL;
+    let work = pairs as u64 * samples::HULL;
     let eights = (WORK / (8 * work.max(1))).clamp(1, CONFIGURATIONS / 8);
     let n = u32::try_from(8 * eights).unwrap_or(8);
     let n = sampled.map_or(n, |sampled| n.min(sampled.max(1)));
