@@ -216,7 +216,7 @@ fn file_of(root: &Path, family: &str) -> Option<String> {
         let (_, after) = text.split_once("declare_rule! {")?;
         let is_of = |line: &str| line.starts_with(family) && line.get(6..8) == Some(" \"");
         let found = after.lines().any(|line| is_of(line.trim()));
-        found.then(|| (text.len(), path))
+        found.then_some((text.len(), path))
     });
     let (_, shortest) = of_family.min()?;
     Some(shortest.strip_prefix(root).ok()?.to_string_lossy().replace('\\', "/"))

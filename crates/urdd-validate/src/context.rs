@@ -170,11 +170,6 @@ impl Context {
         self.computed.placed.get_or_init(|| placed::all(&self.urdd, self.solids()))
     }
 
-    /// Whether a link's plain mesh differs from the robot's geometry, so that nothing is compared with it.
-    pub fn is_misplaced(&self, link: usize) -> bool {
-        self.placed().wrong.iter().any(|wrong| wrong.link == link)
-    }
-
     /// The meaning of shape indices, from the hulls and the convex pieces.
     pub fn shapes(&self) -> Option<Shapes> {
         Shapes::new(&self.urdd)

@@ -83,7 +83,6 @@ enum Judges {
 }
 
 impl Judges {
-    /// What a rule judges, by what it needs.
     fn of(rule: &Rule) -> Judges {
         let needs = |wanted: Need| rule.needs.contains(&wanted);
         match (rule.phase, rule.code.family()) {
@@ -174,9 +173,9 @@ fn at_fault_by_both(
     [context, by_urdf]: [&Context; 2],
 ) -> Check {
     let mut spots = Findings::remembering_spots().within(first.scope.afresh());
-    judge_into(context.into(), rule, &mut spots);
-    let both = Findings::only_at(spots.into_spots()).within(second.scope.afresh());
-    judge(by_urdf.into(), rule, both)
+    judge(context.into(), rule, &mut spots);
+    let mut both = Findings::only_at(spots.into_spots()).within(second.scope.afresh());
+    judge(by_urdf.into(), rule, &mut both)
 }
 
 /// Replaces the reason of rules that were skipped because of a rule that no longer has findings: the two robots differ.
@@ -247,47 +246,29 @@ fn run_all(
 }
 
 fn run_rule(subject: Subject<'_>, rule: &'static Rule, outcomes: &Outcomes) -> Check {
-    if let Some(reason) = unmet(subject, Need::All(rule.needs), outcomes) {
+    let needs = Need::each_of(rule.needs);
+    if let Some(reason) = needs.iter().find_map(|need| unmet(subject, *need, outcomes)) {
         return Check::skipped(&rule.description, reason);
     }
-    let mut unsound = HashMap::new();
-    unsound_parts(subject, Need::All(rule.needs), outcomes, &mut unsound);
-    judge(subject, rule, Findings::default().within(Scope::without(unsound)))
-}
-
-/// Adds the parts that a need leaves out, each with the rule that it failed.
-fn unsound_parts(
-    subject: Subject<'_>,
-    need: Need,
-    outcomes: &Outcomes,
-    unsound: &mut HashMap<Part, Code>,
-) {
-    match need {
-        Need::All(needs) => {
-            for need in needs {
-                unsound_parts(subject, *need, outcomes, unsound);
+    // The parts that are left out, each with the rule that it failed.
+    let mut unsound: HashMap<Part, Code> = HashMap::new();
+    for need in needs {
+        let codes = match need {
+            Need::EachInV1(_) if subject.profile() != Profile::V1 => continue,
+            Need::Each(codes) | Need::EachInV1(codes) => codes,
+            _ => continue,
+        };
+        for code in codes {
+            for part in outcomes.get(code).into_iter().flat_map(|ran| ran.faulted.parts()) {
+                unsound.entry(*part).or_insert(*code);
             }
         }
-        Need::EachInV1(_) if subject.profile() != Profile::V1 => {}
-        Need::Each(codes) | Need::EachInV1(codes) => {
-            for code in codes {
-                let faulted = outcomes.get(code).map(|ran| ran.faulted.parts());
-                for part in faulted.into_iter().flatten() {
-                    unsound.entry(*part).or_insert(*code);
-                }
-            }
-        }
-        _ => {}
     }
+    judge(subject, rule, &mut Findings::default().within(Scope::without(unsound)))
 }
 
-/// Runs a rule's check with these findings.
-fn judge(subject: Subject<'_>, rule: &'static Rule, findings: Findings) -> Check {
-    judge_into(subject, rule, &mut { findings })
-}
-
-/// The same, but leaves `findings` to the caller, without the findings that are returned.
-fn judge_into(subject: Subject<'_>, rule: &'static Rule, findings: &mut Findings) -> Check {
+/// Runs a rule's check, and leaves `findings` to the caller, without the findings that are returned.
+fn judge(subject: Subject<'_>, rule: &'static Rule, findings: &mut Findings) -> Check {
     let judge = |findings: &mut Findings| match rule.check {
         CheckOf::Urdd(check) => check(subject.urdd?, findings),
         CheckOf::Robot(check) => check(&subject.described, findings),

@@ -50,6 +50,15 @@ pub enum Need {
 }
 
 impl Need {
+    /// The needs of a list, those of groups one by one.
+    pub fn each_of(needs: &[Need]) -> Vec<Need> {
+        let each = needs.iter().flat_map(|need| match need {
+            Need::All(needs) => Need::each_of(needs),
+            need => vec![*need],
+        });
+        each.collect()
+    }
+
     /// The rules that decide whether it is met.
     pub fn codes(&self) -> Vec<Code> {
         match self {
@@ -91,18 +100,13 @@ impl Deref for Rule {
 
 /// The consequence of a family's faults, unless a rule declares another.
 pub const fn of_family(code: &str) -> Consequence {
-    match code.as_bytes() {
-        [b'U', b'R', b'D', ..]
-        | [b'D', b'O', b'F', ..]
-        | [b'C', b'H', b'N', ..]
-        | [b'C', b'O', b'N', ..]
-        | [b'B', b'N', b'D', ..]
-        | [b'K', b'I', b'N', ..]
-        | [b'C', b'N', b'F', ..]
-        | [b'L', b'O', b'P', ..] => Consequence::WrongMotion,
-        [b'M', b'S', b'H', ..] => Consequence::MissingGeometry,
-        [b'S', b'H', b'P', ..] | [b'S', b'P', b'H', ..] => Consequence::Collisions,
-        [b'S', b'R', b'C', ..] => Consequence::Looseness,
+    match code.as_bytes().first_chunk() {
+        Some(b"URD" | b"DOF" | b"CHN" | b"CON" | b"BND" | b"KIN" | b"CNF" | b"LOP") => {
+            Consequence::WrongMotion
+        }
+        Some(b"MSH") => Consequence::MissingGeometry,
+        Some(b"SHP" | b"SPH") => Consequence::Collisions,
+        Some(b"SRC") => Consequence::Looseness,
         _ => Consequence::Format,
     }
 }

@@ -75,15 +75,13 @@ impl Reference {
     /// # Errors
     /// Why the URDF cannot be used.
     pub fn new(robot: &UrdfModule, mimics: MimicDofs) -> Result<Reference, String> {
-        let names = |names: &mut dyn Iterator<Item = &str>| -> HashMap<String, usize> {
-            let mut places = HashMap::new();
-            for (index, name) in names.enumerate() {
-                places.entry(name.to_owned()).or_insert(index);
-            }
-            places
+        // Of several of one name, the first.
+        let places = |names: Vec<&str>| -> HashMap<String, usize> {
+            let names = names.into_iter().enumerate().rev();
+            names.map(|(index, name)| (name.to_owned(), index)).collect()
         };
-        let links = names(&mut robot.links.iter().map(|link| link.name.as_str()));
-        let drivers = names(&mut robot.joints.iter().map(|joint| joint.name.as_str()));
+        let links = places(robot.links.iter().map(|link| link.name.as_str()).collect());
+        let drivers = places(robot.joints.iter().map(|joint| joint.name.as_str()).collect());
         let link = |name: &str| {
             links.get(name).copied().ok_or_else(|| format!("no link is called {name}"))
         };

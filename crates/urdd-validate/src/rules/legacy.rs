@@ -1,7 +1,6 @@
 use crate::rules::bounds::{LEGACY_WIDENING, limited_dofs};
 use crate::rules::prelude::*;
 use crate::views::shared_meshes;
-use urdd_document::paths::Place;
 use urdd_format::legacy::composition::AdjustedRobotModule;
 
 declare_rule! {
@@ -79,7 +78,7 @@ fn parent_relative_paths(context: &Context, findings: &mut Findings) -> Option<(
     let paths: Vec<_> = paths.iter().filter(|path| path.from_parent()).collect();
     let Some(first) = paths.first() else { return Some(()) };
     let siblings = paths.iter().filter_map(|path| match path.place(context) {
-        Place::Sibling { folder, .. } => Some(folder),
+        paths::Place::Sibling { folder, .. } => Some(folder),
         _ => None,
     });
     let siblings: BTreeSet<&str> = siblings.collect();

@@ -71,7 +71,24 @@ fn configuration_positions_wrong(context: &Context, findings: &mut Findings) -> 
         let mut set = Vec::new();
         for (entry, position) in configuration.positions.iter().enumerate() {
             let name = position.dof_name.as_str();
-            let Some((message, expected)) = fault(name, &known, &mut set, dof) else { continue };
+            let (message, expected) = match known.get(name) {
+                None => {
+                    let near = nearest(dof.dofs.iter().map(|dof| dof.name.as_str()), name);
+                    let such = near.map_or(String::new(), |near| format!(", such as `{near}`"));
+                    ("the robot has no such DOF", format!("a DOF of dof_module{such}"))
+                }
+                Some(idx) if set.last().is_none_or(|last| last < idx) => {
+                    set.push(*idx);
+                    continue;
+                }
+                Some(idx) => {
+                    let message = match set.binary_search(idx) {
+                        Ok(_) => "this DOF is set twice",
+                        Err(_) => "the positions are not in the order of the DOFs",
+                    };
+                    (message, "each DOF at most once, in the order of dof_module".to_owned())
+                }
+            };
             let pointer = format!("/configurations/{place}/positions/{entry}/dof_name");
             finding_in(Kind::NamedConfigurations, pointer, message)
                 .values(expected, format!("`{name}`"))
@@ -79,33 +96,6 @@ fn configuration_positions_wrong(context: &Context, findings: &mut Findings) -> 
         }
     }
     Some(())
-}
-
-/// What is wrong with the name of a DOF after those that are `set`, and what to write.
-fn fault(
-    name: &str,
-    known: &DofIndices,
-    set: &mut Vec<usize>,
-    dof: &DofModule,
-) -> Option<(&'static str, String)> {
-    let Some(&idx) = known.get(name) else {
-        let near = nearest(dof.dofs.iter().map(|dof| dof.name.as_str()), name);
-        let expected = match near {
-            Some(near) => format!("a DOF of dof_module, such as `{near}`"),
-            None => "a DOF of dof_module".to_owned(),
-        };
-        return Some(("the robot has no such DOF", expected));
-    };
-    if set.last().is_none_or(|last| *last < idx) {
-        set.push(idx);
-        return None;
-    }
-    let message = match set.binary_search(&idx) {
-        Ok(_) => "this DOF is set twice",
-        Err(_) => "the positions are not in the order of the DOFs",
-    };
-    let expected = "each DOF at most once, in the order of dof_module";
-    Some((message, expected.to_owned()))
 }
 
 fn configuration_out_of_bounds(context: &Context, findings: &mut Findings) -> Option<()> {
@@ -130,10 +120,7 @@ fn configuration_out_of_bounds(context: &Context, findings: &mut Findings) -> Op
 }
 
 /// The index of each DOF by name; of several DOFs with one name, of the first.
-type DofIndices<'a> = HashMap<&'a str, usize>;
-
-/// The indices of the DOFs of a robot.
-fn indices(dof: &DofModule) -> DofIndices<'_> {
+fn indices(dof: &DofModule) -> HashMap<&str, usize> {
     let dofs = dof.dofs.iter().enumerate().rev();
     dofs.map(|(idx, dof)| (dof.name.as_str(), idx)).collect()
 }

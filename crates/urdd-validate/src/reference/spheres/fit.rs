@@ -113,11 +113,6 @@ impl Solid {
         self.faces.iter().map(|face| face.corners)
     }
 
-    /// Number of triangles.
-    pub fn num_triangles(&self) -> usize {
-        self.faces.len()
-    }
-
     /// The distance of a point, 0 inside, where it is less than `limit`; otherwise `limit` or more. Only faces that the point
     /// is before can be nearest, and no point of a face is nearer than its plane.
     pub fn distance(&self, point: &Vector3<f64>, limit: f64) -> f64 {
@@ -216,7 +211,7 @@ pub fn standoff(
     budget: &Budget,
 ) -> Result<Standoff, SkipReason> {
     let directions = directions();
-    let triangles: usize = pieces.solids.iter().map(|solid| solid.num_triangles()).sum();
+    let triangles: usize = pieces.solids.iter().map(|solid| solid.faces.len()).sum();
     let (mut max, mut sum, mut weights) = (0.0_f64, 0.0, 0.0);
     for (place, ball) in balls.iter().enumerate() {
         let reaches = |(other, of): (usize, &Ball)| {
@@ -244,12 +239,6 @@ pub fn standoff(
 /// The corners of a triangle, and its unit normal.
 type Triangle = ([Vector3<f64>; 3], Vector3<f64>);
 
-/// The inner side of a plane.
-struct Beneath {
-    normal: Vector3<f64>,
-    offset: f64,
-}
-
 /// The surface outside of the spheres, for the spheres of several levels.
 ///
 /// # Errors
@@ -266,14 +255,10 @@ pub fn uncovered(
         triangles.filter_map(|corners| Some((corners, normal(&corners)?)))
     });
     let triangles: Vec<Vec<Triangle>> = triangles.map(Iterator::collect).collect();
-    let planes = triangles.iter().map(|of| {
-        let beneath = |(corners, normal): &Triangle| Beneath {
-            normal: *normal,
-            offset: normal.dot(&corners[0]) - beyond,
-        };
-        of.iter().map(beneath).collect()
-    });
-    let planes: Vec<Vec<Beneath>> = planes.collect();
+    // Of each plane, the normal, and how far along it what is beneath reaches.
+    let beneath = |(corners, normal): &Triangle| (*normal, normal.dot(&corners[0]) - beyond);
+    let planes = triangles.iter().map(|of| of.iter().map(beneath).collect());
+    let planes: Vec<Vec<(Vector3<f64>, f64)>> = planes.collect();
     let mut found = vec![Uncovered { fraction: 0.0, max: 0.0 }; levels.len()];
     let mut last = vec![0; levels.len()];
     let mut all = 0.0;
@@ -286,11 +271,12 @@ pub fn uncovered(
             budget.spend((n * n) as u64 * (10 + 10 * planes.len() as u64))?;
             let mut work = 0;
             for point in centroids(corners, n as u32) {
-                let mut inside = |(piece, planes): (usize, &Vec<Beneath>)| {
+                let mut inside = |(piece, planes): (usize, &Vec<(Vector3<f64>, f64)>)| {
                     let solid = &pieces.solids[piece];
                     let far = (point - solid.centre).norm() > solid.radius;
                     piece != own && !far && !planes.is_empty() && {
-                        let above = |of: &Beneath| of.normal.dot(&point) >= of.offset;
+                        let above =
+                            |(normal, offset): &(Vector3<f64>, f64)| normal.dot(&point) >= *offset;
                         let first = planes.iter().position(above);
                         work += 2 * first.unwrap_or(planes.len());
                         first.is_none()

@@ -1,6 +1,6 @@
 //! Compares `urdf_module` with the URDF: what a legacy module writes for it, and where a document differs.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use serde_json::{Map, Value, json};
 
@@ -27,7 +27,7 @@ pub struct Difference {
 /// Every difference between the URDF's data and a document. Links and joints are compared by name, so that a missing
 /// one is a single difference.
 pub fn differences(expected: &Value, actual: &Value) -> Vec<Difference> {
-    let mut comparison = Comparison::default();
+    let mut comparison = Comparison(Vec::new());
     if let Some(keys) = expected.as_object() {
         for (key, expected) in keys {
             let actual = actual.get(key).unwrap_or(&Value::Null);
@@ -40,13 +40,10 @@ pub fn differences(expected: &Value, actual: &Value) -> Vec<Difference> {
             }
         }
     }
-    comparison.found
+    comparison.0
 }
 
-#[derive(Default)]
-struct Comparison {
-    found: Vec<Difference>,
-}
+struct Comparison(Vec<Difference>);
 
 impl Difference {
     fn new(pointer: &str, source: &str, expected: &Value, actual: &Value) -> Self {
@@ -69,7 +66,7 @@ impl Difference {
 
 impl Comparison {
     fn report(&mut self, pointer: &str, source: &str, expected: &Value, actual: &Value) {
-        self.found.push(Difference::new(pointer, source, expected, actual));
+        self.0.push(Difference::new(pointer, source, expected, actual));
     }
 
     fn value(&mut self, pointer: &str, source: &str, expected: &Value, actual: &Value) {
@@ -88,9 +85,9 @@ impl Comparison {
             }
             (Value::Array(wanted), Value::Array(there)) => {
                 if wanted.len() != there.len() {
-                    let how = format!("{} there, {} here", wanted.len(), there.len());
                     let lengths = [wanted.len(), there.len()];
-                    self.found.push(Difference::of_lists(pointer, source, lengths, how));
+                    let how = format!("{} there, {} here", lengths[0], lengths[1]);
+                    self.0.push(Difference::of_lists(pointer, source, lengths, how));
                     return;
                 }
                 for (index, (expected, actual)) in wanted.iter().zip(there).enumerate() {
@@ -102,7 +99,7 @@ impl Comparison {
             (Value::Number(wanted), Value::Number(there)) => {
                 let (Some(a), Some(b)) = (wanted.as_f64(), there.as_f64()) else { return };
                 if !numbers_agree(a, b) {
-                    self.found.push(Difference {
+                    self.0.push(Difference {
                         tolerance: Some(number_tolerance(a, b)),
                         ..Difference::new(pointer, source, expected, actual)
                     });
@@ -136,11 +133,10 @@ impl Comparison {
             return;
         }
         let how = how_names_differ(&wanted, &there);
-        self.found.push(Difference::of_lists(list, list, [wanted.len(), there.len()], how));
-        let mut place: HashMap<&str, usize> = HashMap::new();
-        for (index, name) in there.iter().enumerate() {
-            place.entry(name).or_insert(index);
-        }
+        self.0.push(Difference::of_lists(list, list, [wanted.len(), there.len()], how));
+        // Of several of one name, the first.
+        let place = there.iter().enumerate().rev().map(|(index, name)| (name.as_str(), index));
+        let place: HashMap<&str, usize> = place.collect();
         for (index, (name, expected)) in wanted.iter().zip(expected).enumerate() {
             if let Some(&at) = place.get(name.as_str()) {
                 let (pointer, source) = (format!("{list}/{at}"), format!("{list}/{index}"));
@@ -152,9 +148,8 @@ impl Comparison {
 
 fn how_names_differ(wanted: &[String], there: &[String]) -> String {
     let only_in = |a: &[String], b: &[String]| {
-        let b: std::collections::HashSet<&String> = b.iter().collect();
-        let only: Vec<String> = a.iter().filter(|name| !b.contains(name)).cloned().collect();
-        only
+        let b: HashSet<&String> = b.iter().collect();
+        a.iter().filter(|name| !b.contains(name)).cloned().collect::<Vec<String>>()
     };
     let (missing, extra) = (only_in(wanted, there), only_in(there, wanted));
     let mut words = Vec::new();

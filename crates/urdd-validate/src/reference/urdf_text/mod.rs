@@ -32,7 +32,6 @@ pub fn of(xml: &Xml<'_>) -> Reading {
     reading
 }
 
-/// The child elements of an element.
 fn elements<'a>(parent: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
     parent.children().filter(Node::is_element)
 }
@@ -309,7 +308,6 @@ impl UrdfReader {
         })
     }
 
-    /// Radius and length.
     fn round(&mut self, shape: Element<'_>, at: &str) -> Option<(f64, f64)> {
         let radius = self.size(shape, "radius", at);
         let length = self.size(shape, "length", at);

@@ -3,7 +3,6 @@ use crate::rules::prelude::*;
 use urdd_directory::digest::{Change, compare};
 use urdd_directory::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
 use urdd_document::module::{JsonFile, Mirror, VersionFile};
-use urdd_document::paths::Place as PathPlace;
 use urdd_findings::finding::{KEPT_PLACES, Place};
 use urdd_format::root_metadata::FileEntry;
 
@@ -264,7 +263,7 @@ fn bad_path(context: &Context, findings: &mut Findings) -> Option<()> {
 fn link_leaves_root(context: &Context, findings: &mut Findings) -> Option<()> {
     let paths = paths::all(context);
     let here = paths.iter().filter_map(|path| match path.place(context) {
-        PathPlace::Here(path) => Some(path),
+        paths::Place::Here(path) => Some(path),
         _ => None,
     });
     let module_folders = Kind::ALL.iter().map(|kind| kind.folder());

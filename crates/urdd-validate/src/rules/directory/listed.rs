@@ -1,7 +1,5 @@
 use crate::rules::prelude::*;
-use urdd_document::entries::MODULE_FILES;
 use urdd_document::module::{JsonFile, Mirror, VersionFile, is_extension};
-use urdd_document::paths::Place;
 use urdd_format::registry;
 
 declare_rule! {
@@ -272,7 +270,7 @@ fn stray_file(context: &Context, findings: &mut Findings) -> Option<()> {
         if module.kind.is_none() || module.document.is_none() || misnames_files(context, module) {
             continue;
         }
-        let own = MODULE_FILES.map(|name| module.file(name));
+        let own = entries::MODULE_FILES.map(|name| module.file(name));
         let stray: Vec<&str> = context
             .listing()
             .below(&module.folder)
@@ -301,7 +299,7 @@ fn misnames_files(context: &Context, module: &Module) -> bool {
     let mut seen = HashSet::new();
     paths::of_module(module).iter().any(|path| {
         let there = match path.place(context) {
-            Place::Here(path) => entries::look(context, path).is_ok(),
+            paths::Place::Here(path) => entries::look(context, path).is_ok(),
             _ => false,
         };
         !there || (!path.is_reference && !seen.insert(path.path))
@@ -342,9 +340,9 @@ fn unlisted(context: &Context, entry: &Entry<'_>) -> Vec<String> {
     let files = entry.entry.files.iter();
     let listed: HashSet<&str> = files.map(|file| file.path.as_str()).collect();
     let schema = is_extension(&module.folder).then_some("schema.json");
-    let own = MODULE_FILES.into_iter().chain(schema).map(|name| module.file(name));
+    let own = entries::MODULE_FILES.into_iter().chain(schema).map(|name| module.file(name));
     let named = paths::of_module(module).into_iter().filter_map(|path| match path.place(context) {
-        Place::Here(path) if entry.holds(path) => Some(path.to_owned()),
+        paths::Place::Here(path) if entry.holds(path) => Some(path.to_owned()),
         _ => None,
     });
     let mut unlisted: Vec<String> = own

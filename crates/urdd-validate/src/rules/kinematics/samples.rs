@@ -106,10 +106,7 @@ fn sample_list_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
 }
 
 fn describe(kind: ConfigurationKind, number: Option<SampleIdx>) -> String {
-    match number {
-        Some(number) => format!("kind {kind}, sample_idx {number}"),
-        None => format!("kind {kind}, sample_idx null"),
-    }
+    format!("kind {kind}, sample_idx {}", or_null(number.map(|number| number.0)))
 }
 
 fn sample_configuration_wrong(context: &Context, findings: &mut Findings) -> Option<()> {

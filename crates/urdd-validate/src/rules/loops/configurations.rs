@@ -212,7 +212,8 @@ fn loop_open(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         for (place, one) in loops.loops.iter().enumerate() {
             let gap = Gap::of(one, &poses, reach)?;
-            if gap.is_closed() {
+            let [position, rotation] = gap.most;
+            if gap.position <= position && gap.rotation <= rotation {
                 continue;
             }
             let message = format!(
@@ -221,7 +222,6 @@ fn loop_open(context: &Context, findings: &mut Findings) -> Option<()> {
                 number(gap.position, 4),
                 number(gap.rotation, 4)
             );
-            let [position, rotation] = gap.most;
             let (off, most, unit) = match gap.position <= position {
                 true => (gap.rotation, rotation, "rad"),
                 false => (gap.position, position, "m"),

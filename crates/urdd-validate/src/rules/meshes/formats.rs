@@ -98,25 +98,20 @@ fn fault(file: &DerivedFile, profile: Profile) -> Option<String> {
         return None;
     }
     match &file.fault {
-        Some(MeshFault::Absent(_)) => return None,
+        Some(MeshFault::Absent(_)) => None,
         Some(MeshFault::TooLarge(size)) => {
-            return Some(format!("it is {size} bytes long; the limit is {MAX_DOCUMENT_BYTES}"));
+            Some(format!("it is {size} bytes long; the limit is {MAX_DOCUMENT_BYTES}"))
         }
-        Some(MeshFault::Broken(why)) => return Some(why.clone()),
-        None => {}
+        Some(MeshFault::Broken(why)) => Some(why.clone()),
+        None => match (file.format, file.content?) {
+            (MeshFormat::Stl, Content::StlBinary)
+            | (MeshFormat::Obj, Content::Obj)
+            | (MeshFormat::Glb, Content::Glb) => None,
+            (MeshFormat::Stl, Content::StlAscii) if profile == Profile::Legacy => None,
+            (_, Content::StlAscii) => Some("it is STL as text; write binary STL".to_owned()),
+            (_, other) => Some(format!("it has the content of a .{} file", other.extension())),
+        },
     }
-    let right = match (file.format, file.content?) {
-        (MeshFormat::Stl, Content::StlBinary)
-        | (MeshFormat::Obj, Content::Obj)
-        | (MeshFormat::Glb, Content::Glb) => true,
-        (MeshFormat::Stl, Content::StlAscii) => profile == Profile::Legacy,
-        _ => false,
-    };
-    (!right).then(|| match file.content {
-        Some(Content::StlAscii) => "it is STL as text; write binary STL".to_owned(),
-        Some(content) => format!("it has the content of a .{} file", content.extension()),
-        None => "it is not a mesh".to_owned(),
-    })
 }
 
 fn expected(format: MeshFormat) -> &'static str {

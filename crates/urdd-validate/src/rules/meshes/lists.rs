@@ -148,35 +148,26 @@ fn mesh_presence_differs(context: &Context, findings: &mut Findings) -> Option<(
     Some(())
 }
 
-/// The number of pieces of each link, by a list of a module.
-struct Counted<'a> {
-    module: &'a Module,
-    key: &'static str,
-    counts: Vec<usize>,
-}
-
 fn piece_count_mismatch(context: &Context, findings: &mut Findings) -> Option<()> {
     let pieces = context.meshes(Kind::ConvexDecompositionMeshes)?;
     let links = 0..pieces.num_links();
-    let mut lists = vec![Counted {
-        module: context.module(Kind::ConvexDecompositionMeshes)?,
-        key: pieces.lists.first().map_or("", |list| list.key),
-        counts: links.clone().map(|link| pieces.count(link)).collect(),
-    }];
+    // Each with its module, its key, and the number of pieces of each link.
+    let mut lists = vec![(
+        context.module(Kind::ConvexDecompositionMeshes)?,
+        pieces.lists.first().map_or("", |list| list.key),
+        links.clone().map(|link| pieces.count(link)).collect::<Vec<usize>>(),
+    )];
     for (_, module, document) in context.documents(LIST_MODULES) {
         let of_pieces = entry_counts(document).into_iter().filter(|list| !list.kind.is_of_links());
-        lists.extend(of_pieces.map(|list| Counted {
-            module,
-            key: list.key,
-            counts: list.links.iter().map(Vec::len).collect(),
-        }));
+        let counts = of_pieces.map(|list| (list.key, list.links.iter().map(Vec::len).collect()));
+        lists.extend(counts.map(|(key, counts)| (module, key, counts)));
     }
     for link in links {
-        let counts = lists.iter().filter_map(|list| Some((*list.counts.get(link)?, list)));
+        let counts = lists.iter().filter_map(|list| Some((*list.2.get(link)?, list)));
         // One finding per link, reported at the first list that differs from most lists.
         let usual = most_common(counts.clone().map(|(count, _)| count));
         let mut odd = counts.filter(|(count, _)| *count != usual);
-        let Some((count, first)) = odd.next() else { continue };
+        let Some((count, (module, key, _))) = odd.next() else { continue };
         let also = match odd.count() {
             0 => String::new(),
             n => format!(" (and {n} more lists)"),
@@ -185,7 +176,7 @@ fn piece_count_mismatch(context: &Context, findings: &mut Findings) -> Option<()
             "{} has {count} convex pieces here{also} and {usual} in the other modules that list them: write the link shape modules again from convex_decomposition_meshes_module",
             context.link_label(link)
         );
-        finding_in(first.module, format!("/{}/{link}", first.key), message)
+        finding_in(*module, format!("/{key}/{link}"), message)
             .counts(usual, count, "entries")
             .report(findings);
     }

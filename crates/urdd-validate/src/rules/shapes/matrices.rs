@@ -210,15 +210,14 @@ fn wrong_size(module: &Module, matrix: &Matrix, shapes: &Shapes) -> Option<Findi
     if rows.len() != size {
         let message = format!("there are {size} {what}, and {} rows here", rows.len());
         let finding = finding_in(module, &matrix.pointer, message);
-        let finding = finding.expected(format!("{size} rows of {size}"));
-        return Some(finding.actual(format!("{} rows", rows.len())));
+        let rows = format!("{} rows", rows.len());
+        return Some(finding.values(format!("{size} rows of {size}"), rows));
     }
     let row = rows.iter().position(|length| *length != size)?;
     let length = rows.get(row)?;
     let message = format!("there are {size} {what}, and {length} elements in this row");
     let finding = finding_in(module, format!("{}/{row}", matrix.pointer), message);
-    let finding = finding.expected(format!("{size} elements"));
-    Some(finding.actual(format!("{length} elements")))
+    Some(finding.counts(size, length, "elements"))
 }
 
 fn diagonal_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
