@@ -106,7 +106,12 @@ fn new_family(edits: &mut Edits, code: &str, room: &str) -> Result<String, Strin
     if edits.is_there(&format!("{RULES}/{room}")) {
         return Err(format!("{file} is there already, as a folder"));
     }
-    edits.create(&file, "use crate::rules::prelude::*;\n\ndeclare_rule! {\n}\n".to_owned())?;
+    let about = match is_module(edits, room) {
+        true => format!("`{room}_module`"),
+        false => "TODO: what the rules are about".to_owned(),
+    };
+    let empty = "use crate::rules::prelude::*;\n\ndeclare_rule! {\n}\n";
+    edits.create(&file, format!("//! {family}: {about}.\n\n{empty}"))?;
     edits.insert_before(CODES, "    LEG001 ", &format!("    {code}\n"))?;
     edits.insert_module(ALL, &format!("pub mod {room};"))?;
     edits.insert_before(ALL, "    };\n    rules.sort_by_key", &format!("        {room},\n"))?;

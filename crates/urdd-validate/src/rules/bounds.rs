@@ -1,3 +1,5 @@
+//! BND: `bounds_module`.
+
 use crate::rules::prelude::*;
 use urdd_document::dof_layout::bounds_without_limits;
 use urdd_document::robot::Joint;

@@ -1,3 +1,5 @@
+//! CMP: how a robot was put together from others.
+
 use crate::rules::prelude::*;
 use urdd_format::composition::CompositionPart;
 

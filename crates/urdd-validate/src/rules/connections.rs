@@ -1,3 +1,9 @@
+//! CON: `connections_module`.
+//!
+//! Every table is compared with the tree that follows from `urdf_module`, in time proportional to
+//! what is written in it: the table of lowest common ancestors is made row by row, and paths are
+//! walked without being made.
+
 use crate::rules::prelude::*;
 use urdd_document::tree::Tree;
 use urdd_format::connections::LinkPath;

@@ -1,3 +1,5 @@
+//! DOF: `dof_module`.
+
 use crate::rules::prelude::*;
 use urdd_document::dof_layout::describe;
 

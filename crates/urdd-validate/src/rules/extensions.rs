@@ -1,3 +1,5 @@
+//! EXT: extension modules.
+
 use std::sync::Arc;
 
 use serde_json::Value;

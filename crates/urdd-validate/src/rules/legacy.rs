@@ -1,3 +1,5 @@
+//! LEG: conventions of URDDs that were published before version 1.
+
 use crate::rules::bounds::{LEGACY_WIDENING, limited_dofs};
 use crate::rules::prelude::*;
 use crate::views::shared_meshes;

@@ -1,3 +1,5 @@
+//! CNF: `named_configurations_module`.
+
 use std::collections::HashMap;
 
 use crate::rules::prelude::*;

@@ -1,3 +1,5 @@
+//! JSN, YML and SCH: documents as text, in JSON and in the YAML beside it, and against their schemas.
+
 use crate::rules::directory::versions::other_major;
 use crate::rules::prelude::*;
 use urdd_directory::text_fault::TextFaultKind::{self, *};

@@ -1,3 +1,5 @@
+//! The files of a URDD: their contents, names and paths.
+
 use super::versions::checked_modules;
 use crate::rules::prelude::*;
 use urdd_directory::digest::{Change, compare};

@@ -1,3 +1,5 @@
+//! Modules and files that `urdd.json` lists and that are missing, and those that are there and not listed.
+
 use crate::rules::prelude::*;
 use urdd_document::module::{JsonFile, Mirror, VersionFile, is_extension};
 use urdd_format::registry;

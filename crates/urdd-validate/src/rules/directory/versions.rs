@@ -1,3 +1,5 @@
+//! Versions of modules and of the specification, and the modules that a conformance class asks for.
+
 use crate::rules::prelude::*;
 use urdd_directory::digest::{Change, compare};
 use urdd_document::legacy::SIMPLE_SKIPS_DEPENDENCIES;

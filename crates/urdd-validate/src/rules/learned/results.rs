@@ -1,3 +1,5 @@
+//! What the model is of, what it gives, and how often that is right.
+
 use sha2::{Digest, Sha256};
 
 use crate::reference::learned::{self, Network, PER_TOLERANCE};

@@ -1,3 +1,5 @@
+//! The surfaces in mesh files: that a link's mesh is its geometry, and that hulls and pieces are convex and of that mesh.
+
 use crate::rules::prelude::*;
 use crate::solids::derived::{Derived, noun};
 use crate::solids::placed;

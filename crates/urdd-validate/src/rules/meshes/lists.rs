@@ -1,3 +1,5 @@
+//! Which files the mesh modules list for each link.
+
 use crate::rules::prelude::*;
 use crate::views::shared_meshes;
 use urdd_document::mesh_files::{Absence, MeshFiles};

@@ -1,3 +1,5 @@
+//! The meshes that the URDF names, and the files that are carried for them.
+
 use crate::rules::prelude::*;
 use crate::solids::file::MeshFault;
 use urdd_document::meshes::Meshes;

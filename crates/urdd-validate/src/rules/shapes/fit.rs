@@ -1,3 +1,5 @@
+//! Boxes and spheres: their sizes, how they fit what they hold, and how far shapes reach.
+
 use crate::rules::prelude::*;
 use crate::views::enclosure::{Enclosure, Side};
 use crate::views::judged::enclosures;

@@ -1,3 +1,5 @@
+//! The lists of shapes, and the matrices over them as such.
+
 use crate::rules::prelude::*;
 use crate::views::tangled::{Tangled, diagonal_sound, of_pair, pairs, symmetric_at};
 use urdd_document::shape_matrices::{

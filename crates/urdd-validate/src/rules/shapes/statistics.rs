@@ -1,3 +1,5 @@
+//! The statistics of distances, by themselves and computed again.
+
 use crate::rules::prelude::*;
 use crate::views::judged::JudgedShapes;
 use urdd_document::shape_matrices::at;

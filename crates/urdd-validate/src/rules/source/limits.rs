@@ -1,3 +1,5 @@
+//! What is odd in a source besides masses and inertias: limits, lost meshes, repeated elements.
+
 use crate::rules::prelude::*;
 use urdd_directory::position::LineIndex;
 use urdd_document::schema_check::excerpt;

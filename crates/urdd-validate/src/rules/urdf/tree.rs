@@ -1,3 +1,5 @@
+//! That the robot is a tree of links, and that its joints can be moved.
+
 use crate::reference::urdf_text::compare::first_names;
 use crate::rules::prelude::*;
 
