@@ -5,7 +5,7 @@ use urdd_document::urdd::Urdd;
 use urdd_format::self_collision_model::SelfCollisionModelModule;
 use urdd_validate::code::Code;
 use urdd_validate::code::Code::*;
-use urdd_validate::learned::counts::Judge;
+use urdd_validate::learned::Judge;
 use urdd_validate::rule::Rule;
 use urdd_validate::settings::Settings;
 use urdd_validate::solids::Solids;

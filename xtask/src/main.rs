@@ -22,10 +22,10 @@ cargo xtask update [schemas|cases|clauses|counts|exports|types|imports|snapshots
 cargo xtask clauses
     How many statements of SPEC.md cases decide, by chapter; which line of conformance/clauses is missing or wrong.
 
-cargo xtask new-rule CODE name-of-the-fault [--clause 6.1.7] [--severity error|warning|info] [--family FOLDER]
+cargo xtask new-rule CODE name-of-the-fault [--clause 6.1.7] [--severity error|warning|info] [--family FILE]
     Makes the files of a new rule: the rule, its code, its place in SPEC.md, and its two cases.
     The code is the family and its next free number (such as SRC010); the name states the fault.
-    A family that is new gets a folder: --family battery. A rule of lint (LNT060) has no clause.
+    A family that is new gets a file: --family battery. A rule of lint (LNT060) has no clause.
 
 cargo xtask new-module NAME
     Makes the files of a new module of the format: its type, its entries in the registry, its place in SPEC.md.

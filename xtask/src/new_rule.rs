@@ -26,7 +26,7 @@ pub struct NewRule<'a> {
     pub clause: Option<&'a str>,
     /// `error`, `warning` or `info`.
     pub severity: &'a str,
-    /// The folder of its family, if the family is new.
+    /// The file of its family, if the family is new.
     pub family: Option<&'a str>,
 }
 
@@ -41,34 +41,30 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
     let clause = new.clause.unwrap_or("TODO");
     let severity = severity(new.severity)?;
     let mut edits = Edits::new(root);
-    let room = match (room_of(root, family)?, new.family) {
-        (Some(room), None) => room,
-        (Some(room), Some(_)) => {
-            return Err(format!("{family} is the family of {RULES}/{room}: leave out --family"));
+    let rule_path = match (file_of(root, family), new.family) {
+        (Some(file), None) => file,
+        (Some(file), Some(_)) => {
+            return Err(format!("{family} is the family of {file}: leave out --family"));
         }
         (None, None) => {
             return Err(format!(
-                "there is no family {family}; {CODES} lists them. A new one needs --family FOLDER"
+                "there is no family {family}; {CODES} lists them. A new one needs --family FILE"
             ));
         }
-        (None, Some(room)) => {
-            new_family(&mut edits, code, room)?;
-            room.to_owned()
-        }
+        (None, Some(room)) => new_family(&mut edits, code, room)?,
     };
+    let room = room_of(&rule_path).to_owned();
     edits.set(CODES, add_code(&edits.read(CODES)?, code, 1)?);
     add_change(&mut edits, &format!("what {code} finds"))?;
     check_new(root, RULES, name)?;
     let module = name.replace('-', "_");
-    let rule_path = format!("{RULES}/{room}/{module}.rs");
     // If the module is as scaffolded, the rule can already read the values.
     let types = edits.read(&format!("crates/urdd-format/src/{room}.rs"));
     let has_values = types.is_ok_and(|text| text.contains("pub values: Vec<f64>,"));
     let about = has_values.then_some(room.as_str());
     let since = next_version(&edits)?;
-    edits.create(&rule_path, rule(code, name, severity, clause, &since, about))?;
-    let list = format!("{RULES}/{room}/mod.rs");
-    edits.set(&list, register(&edits.read(&list)?, &module, &list)?);
+    let (declared, check) = rule(code, name, &module, severity, clause, &since, about);
+    edits.set(&rule_path, with_rule(&edits.read(&rule_path)?, &declared, &check, &rule_path)?);
     let mut steps = Vec::new();
     if clause == "TODO" {
         steps.push(format!(
@@ -98,26 +94,31 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
     Ok(lines.map(|(number, step)| format!("{}. {step}\n", number + 1)).collect())
 }
 
-/// Adds a family without rules: its folder, the first code's place, and where it is about a module, a base of its cases
-/// that has it. Families of modules come before the legacy ones.
-fn new_family(edits: &mut Edits, code: &str, room: &str) -> Result<(), String> {
+/// Adds a family without rules: its file, which is returned, the first code's place, and where it is about a module, a
+/// base of its cases that has it. Families of modules come before the legacy ones.
+fn new_family(edits: &mut Edits, code: &str, room: &str) -> Result<String, String> {
     check_name(&room.replace('_', "-"))?;
     let family = &code[..3];
     if !code.ends_with("001") {
         return Err(format!("{code}: the first code of a family is {family}001"));
     }
+    let file = format!("{RULES}/{room}.rs");
+    if edits.is_there(&format!("{RULES}/{room}")) {
+        return Err(format!("{file} is there already, as a folder"));
+    }
     let about = match is_module(edits, room) {
         true => format!("`{room}_module`"),
         false => "TODO: what the rules are about".to_owned(),
     };
+    let empty = "use crate::rules::prelude::*;\n\ndeclare_rule! {\n}\n";
+    edits.create(&file, format!("//! {family}: {about}.\n\n{empty}"))?;
     edits.insert_before(CODES, "    LEG001 ", &format!("    {code}\n"))?;
-    edits.create(&format!("{RULES}/{room}/mod.rs"), family_list(family, &about))?;
     edits.insert_module(ALL, &format!("pub mod {room};"))?;
-    edits.insert_before(ALL, "        legacy::rules(),", &format!("        {room}::rules(),\n"))?;
-    match is_module(edits, room) {
-        false => Ok(()),
-        true => edits.insert_before(BASES, "        (\"composition\",", &small_base(room)),
+    edits.insert_before(ALL, "    };\n    rules.sort_by_key", &format!("        {room},\n"))?;
+    if is_module(edits, room) {
+        edits.insert_before(BASES, "        (\"composition\",", &small_base(room))?;
     }
+    Ok(file)
 }
 
 /// Whether a family is about a module of version 1 that has its type in a file of that name.
@@ -213,23 +214,33 @@ pub fn add_code(text: &str, code: &str, least: u32) -> Result<String, String> {
     Ok(format!("{} {code}{}", &text[..place], &text[place..]))
 }
 
-/// The folder of the rules of a family; `None` if it has none yet.
-fn room_of(root: &Path, family: &str) -> Result<Option<String>, String> {
-    let failed = |error| format!("{RULES}: cannot be read: {error}");
-    for room in fs::read_dir(root.join(RULES)).map_err(failed)? {
-        let room = room.map_err(failed)?;
-        for file in fs::read_dir(room.path()).into_iter().flatten().flatten() {
-            let text = fs::read_to_string(file.path()).unwrap_or_default();
-            let Some((_, after)) = text.split_once("declare_rule! {") else {
-                continue;
-            };
-            let is_of = |line: &str| line.starts_with(family) && line.get(6..8) == Some(" \"");
-            if after.lines().any(|line| is_of(line.trim())) {
-                return Ok(Some(room.file_name().to_string_lossy().into_owned()));
-            }
-        }
-    }
-    Ok(None)
+/// The shortest file with rules of a family; `None` if it has none yet.
+fn file_of(root: &Path, family: &str) -> Option<String> {
+    let of_family = files(root, &[RULES]).into_iter().filter_map(|path| {
+        let text = fs::read_to_string(&path).ok()?;
+        let (_, after) = text.split_once("declare_rule! {")?;
+        let is_of = |line: &str| line.starts_with(family) && line.get(6..8) == Some(" \"");
+        let found = after.lines().any(|line| is_of(line.trim()));
+        found.then_some((text.len(), path))
+    });
+    let (_, shortest) = of_family.min()?;
+    Some(shortest.strip_prefix(root).ok()?.to_string_lossy().replace('\\', "/"))
+}
+
+/// What the rules of a file are about: the name of their folder, or else that of the file.
+fn room_of(file: &str) -> &str {
+    let below = file.trim_start_matches(RULES).trim_start_matches('/');
+    below.split('/').next().unwrap_or_default().trim_end_matches(".rs")
+}
+
+/// A file of rules with one more, at the end of its table, and its check.
+fn with_rule(text: &str, declared: &str, check: &str, path: &str) -> Result<String, String> {
+    let unexpected = || format!("{path} is not as expected: no table of rules");
+    let start = text.find("declare_rule! {\n").ok_or_else(unexpected)?;
+    let end = start + text[start..].find("\n}\n").ok_or_else(unexpected)?;
+    let (head, tail) = text.split_at(end);
+    let gap = if head.ends_with('{') { "\n" } else { "\n\n" };
+    Ok(format!("{head}{gap}{declared}{tail}\n{check}"))
 }
 
 /// Adds the rule to the sorted modules and the sorted rules of the family's `mod.rs`.
@@ -250,11 +261,6 @@ pub fn register(text: &str, module: &str, path: &str) -> Result<String, String> 
         }
     }
     Ok(format!("{head}rules! {{\n{}\n}}{tail}", lines.join("\n")))
-}
-
-/// The `mod.rs` of a family without rules.
-fn family_list(family: &str, about: &str) -> String {
-    format!("//! {family}: {about}.\n\nuse crate::rule::rules;\n\nrules! {{}}\n")
 }
 
 /// Appends a placeholder sentence to the clause in SPEC.md.
@@ -300,14 +306,16 @@ fn check_clause(text: &str, clause: &str, room: &str) -> Result<(), String> {
     }
 }
 
+/// The declaration of a rule, and its check.
 fn rule(
     code: &str,
     name: &str,
+    check: &str,
     severity: &str,
     clause: &str,
     since: &str,
     module: Option<&str>,
-) -> String {
+) -> (String, String) {
     // Rules about unusual robots judge the source.
     let need = match (module, code.starts_with("SRC")) {
         (Some(room), _) => format!("ModuleV1(Kind::{})", camel(room)),
@@ -327,18 +335,15 @@ fn rule(
         Finding::at(file, "/links/0", "TODO: what is wrong here, and what to do")"#
             .to_owned(),
     };
-    format!(
-        r#"use crate::rules::prelude::*;
-
-declare_rule! {{
-    /// TODO: what is wrong, in one sentence.
+    let declared = format!(
+        r#"    /// TODO: what is wrong, in one sentence.
     ///
     /// TODO: why it matters, and what to do.
     {code} "{name}", {severity}, clause "{clause}", since "{since}",
-    phase References, needs [{need}],
-}}
-
-fn check(context: &Context, findings: &mut Findings) -> Option<()> {{
+    phase References, needs [{need}], check {check},"#
+    );
+    let check = format!(
+        r#"fn {check}(context: &Context, findings: &mut Findings) -> Option<()> {{
     // TODO: report each place. `context.rs` shows the available data, `tolerance.rs` how to compare numbers (both in
     // `crates/urdd-validate/src/`). Declare in `needs` what you take with `?`.
 {look}
@@ -349,7 +354,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {{
     Some(())
 }}
 "#
-    )
+    );
+    (declared, check)
 }
 
 /// The base of a rule's cases: the smallest that has what the rule is about.

@@ -31,9 +31,14 @@ impl<'a> Edits<'a> {
         self.texts.insert(path.to_owned(), text);
     }
 
+    /// Whether a file or folder exists.
+    pub fn is_there(&self, path: &str) -> bool {
+        self.root.join(path).exists()
+    }
+
     /// Adds a new file with this text.
     pub fn create(&mut self, path: &str, text: String) -> Result<(), String> {
-        match self.root.join(path).exists() {
+        match self.is_there(path) {
             true => Err(format!("{path} is there already")),
             false => {
                 self.set(path, text);

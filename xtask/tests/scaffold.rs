@@ -80,17 +80,15 @@ fn a_rule_gets_all_of_its_files() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(said.contains(&format!("URDD_CASE={code}")), "{said}");
 
-    let rule = text(root, "crates/urdd-validate/src/rules/source/is_of_cheese.rs");
-    assert!(
-        rule.contains(&format!("{code} \"is-of-cheese\", Warning, clause \"6.1.7\"")),
-        "{rule}"
-    );
-    let list = text(root, "crates/urdd-validate/src/rules/source/mod.rs");
-    assert!(list.contains("\nmod is_of_cheese;\n") && list.contains(" is_of_cheese,"), "{list}");
-    // In order: after `inertia`, before `limits`.
-    let place = |name: &str| list.find(&format!("mod {name};")).expect(name);
-    assert!(place("inertia") < place("is_of_cheese"));
-    assert!(place("is_of_cheese") < place("limits"));
+    // In one of the files of its family: at the end of its table, and its check at the end.
+    let files = ["inertia", "limits"]
+        .map(|file| format!("crates/urdd-validate/src/rules/source/{file}.rs"));
+    let rule = files.iter().map(|file| text(root, file)).find(|text| text.contains(&code));
+    let rule = rule.expect("the rule");
+    let declared = format!("{code} \"is-of-cheese\", Warning, clause \"6.1.7\"");
+    let (table, checks) = rule.split_once("\n}\n").expect("a table");
+    assert!(table.contains(&declared) && table.ends_with("check is_of_cheese,"), "{table}");
+    assert!(checks.contains("\n}\n\nfn is_of_cheese(context: &Context,"), "{checks}");
     assert!(text(root, "crates/urdd-findings/src/code.rs").contains(&format!(" {code}")));
     let spec = text(root, "SPEC.md");
     let clause = spec
@@ -174,15 +172,13 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
         ),
         ("crates/urdd-findings/src/code.rs", "    BAT001 BAT002\n    LEG001"),
         ("crates/urdd-validate/src/rules/mod.rs", "pub mod battery_pack;\npub mod bounds;"),
-        ("crates/urdd-validate/src/rules/battery_pack/mod.rs", "mod no_values;\nmod odd_values;"),
+        ("crates/urdd-validate/src/rules/mod.rs", "\n        battery_pack,\n    };"),
+        ("crates/urdd-validate/src/rules/battery_pack.rs", "declare_rule! {\n    /// TODO"),
         (
-            "crates/urdd-validate/src/rules/battery_pack/mod.rs",
-            "rules! {\n    no_values, odd_values,\n}",
+            "crates/urdd-validate/src/rules/battery_pack.rs",
+            "needs [ModuleV1(Kind::BatteryPack)], check no_values,\n\n    /// TODO",
         ),
-        (
-            "crates/urdd-validate/src/rules/battery_pack/no_values.rs",
-            "needs [ModuleV1(Kind::BatteryPack)]",
-        ),
+        ("crates/urdd-validate/src/rules/battery_pack.rs", "check odd_values,\n}\n"),
         ("tests/rules/bases.rs", "            \"battery_pack\",\n            base(|| {"),
         ("tests/rules/bases.rs", "ModuleKind::BatteryPack"),
         ("conformance/cases/BAT002.json", "\"base\": \"battery_pack\""),

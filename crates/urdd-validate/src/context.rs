@@ -1,27 +1,31 @@
-//! A URDD as rules see it.
+//! A URDD, or a URDF alone, as rules see it, with what is computed once for all rules.
 
+use std::collections::HashMap;
+use std::hash::Hash;
 use std::ops::Deref;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use super::described::{Described, UrdfText};
-use super::memo::Memos;
 use super::reference::distances::Distances;
-use super::reference::learned::counts::Judge;
-use super::reference::loops;
-use super::reference::spheres;
-use super::reference::spheres::contacts::LevelFound;
-use super::reference::urdf_text;
+use super::reference::learned::Judge;
+use super::reference::spheres::contacts::{self, LevelFound};
+use super::reference::{loops, urdf_text};
 use super::solids::Solids;
 use super::solids::placed::{self, Placed};
+use super::solids::polytope::{Dents, NotConvex};
 use urdd_directory::cancellation::Cancellation;
+use urdd_document::carried_urdf::{CarriedUrdf, NoUrdf};
+use urdd_document::mechanism::Mechanism;
 use urdd_document::meshes::Meshes;
 use urdd_document::module::Module;
-use urdd_document::robot::Robot;
+use urdd_document::robot::{self, Robot};
 use urdd_document::shape_matrices::{self, Statistics};
 use urdd_document::shapes::Shapes;
+use urdd_document::tree::{Mimics, RigidGroups};
 use urdd_document::urdd::Urdd;
 use urdd_findings::check::Check;
+use urdd_findings::code::Code;
 use urdd_findings::examined::{Examined, blank};
+use urdd_findings::settings::Settings;
 use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
@@ -36,6 +40,7 @@ use urdd_format::root_metadata::ConformanceClass;
 pub struct Context {
     urdd: Urdd,
     class: Option<ConformanceClass>,
+    /// Whether to check sampled data completely, however long that takes.
     pub(super) deep: bool,
     /// Once cancelled, no further rule starts.
     pub(super) cancellation: Cancellation,
@@ -43,6 +48,12 @@ pub struct Context {
     solids: Arc<OnceLock<Solids>>,
     /// Results that follow from files alone, and so are the same by both descriptions of the robot.
     pub memos: Arc<Memos>,
+    computed: Computed,
+}
+
+/// What is computed of one description of the robot, on first use.
+#[derive(Default)]
+struct Computed {
     distances: OnceLock<Result<Distances, SkipReason>>,
     placed: OnceLock<Placed>,
     model_judge: OnceLock<Result<Judge, SkipReason>>,
@@ -59,21 +70,18 @@ impl Deref for Context {
 }
 
 impl Context {
-    /// A context of a loaded URDD. `class` replaces the conformance class that the URDD claims.
-    pub fn new(urdd: Urdd, class: Option<ConformanceClass>) -> Self {
+    /// A context of a loaded URDD, with what its source URDF says, where somebody has parsed it. Of the settings, those
+    /// apply that change what rules compute.
+    pub fn new(urdd: Urdd, urdf: Option<urdf_text::Reading>, settings: &Settings) -> Self {
         Context {
             urdd,
-            class,
-            deep: false,
-            cancellation: Cancellation::default(),
-            urdf_text: Arc::default(),
+            class: settings.class,
+            deep: settings.deep,
+            cancellation: settings.cancellation.clone(),
+            urdf_text: UrdfText::known(urdf).into(),
             solids: Arc::default(),
             memos: Arc::default(),
-            distances: OnceLock::new(),
-            placed: OnceLock::new(),
-            model_judge: OnceLock::new(),
-            sphere_contacts: OnceLock::new(),
-            loop_ranks: OnceLock::new(),
+            computed: Computed::default(),
         }
     }
 
@@ -82,12 +90,14 @@ impl Context {
     pub fn by_urdf(&self) -> Option<Context> {
         let robot = self.urdf_text.robot(self.urdf())?;
         Some(Context {
+            urdd: self.urdd.with_robot(robot),
+            class: self.class,
+            deep: self.deep,
+            cancellation: self.cancellation.clone(),
             urdf_text: Arc::clone(&self.urdf_text),
             solids: Arc::clone(&self.solids),
             memos: Arc::clone(&self.memos),
-            deep: self.deep,
-            cancellation: self.cancellation.clone(),
-            ..Context::new(self.urdd.with_robot(robot), self.class)
+            computed: Computed::default(),
         })
     }
 
@@ -99,23 +109,6 @@ impl Context {
             urdf: self.urdf(),
             text: &self.urdf_text,
         }
-    }
-
-    /// Sets what the source URDF says, where somebody has parsed it.
-    pub(super) fn knowing(self, urdf: Option<urdf_text::Reading>) -> Self {
-        Context { urdf_text: UrdfText::known(urdf).into(), ..self }
-    }
-
-    /// Whether to check sampled data completely, however long that takes.
-    pub fn deep(mut self, deep: bool) -> Self {
-        self.deep = deep;
-        self
-    }
-
-    /// Sets the cancellation: once cancelled, no further rule starts.
-    pub fn until(mut self, cancellation: &Cancellation) -> Self {
-        self.cancellation = cancellation.clone();
-        self
     }
 
     /// The conformance class that the URDD must meet: the requested one, otherwise the one it claims.
@@ -139,7 +132,7 @@ impl Context {
     /// Why they cannot be computed.
     pub fn distances(&self) -> Result<&Distances, SkipReason> {
         let make = || Distances::new(&self.urdd, self.solids(), self.deep);
-        self.distances.get_or_init(make).as_ref().map_err(Clone::clone)
+        self.computed.distances.get_or_init(make).as_ref().map_err(Clone::clone)
     }
 
     /// Compares the self-collision model with exact geometry; prepared on first use. For rules that need LRN003 passed.
@@ -154,7 +147,7 @@ impl Context {
             }
             _ => Err(SkipReason::absent(kind)),
         };
-        self.model_judge.get_or_init(make).as_ref().map_err(Clone::clone)
+        self.computed.model_judge.get_or_init(make).as_ref().map_err(Clone::clone)
     }
 
     /// The contacts of links by their spheres, level by level, computed on first use. For rules that need SPH009 passed.
@@ -162,24 +155,19 @@ impl Context {
     /// # Errors
     /// Why they cannot be computed.
     pub fn sphere_contacts(&self) -> Result<&[LevelFound], SkipReason> {
-        let make = || spheres::contacts::of_urdd(&self.urdd, self.deep);
-        self.sphere_contacts.get_or_init(make).as_deref().map_err(Clone::clone)
+        let make = || contacts::of_urdd(&self.urdd, self.deep);
+        self.computed.sphere_contacts.get_or_init(make).as_deref().map_err(Clone::clone)
     }
 
     /// How many DOFs loops tie to others: [`loops::ranks`].
     pub fn loop_ranks(&self) -> Result<&[[usize; 2]; 2], SkipReason> {
         let make = || loops::ranks(&self.urdd);
-        self.loop_ranks.get_or_init(make).as_ref().map_err(Clone::clone)
+        self.computed.loop_ranks.get_or_init(make).as_ref().map_err(Clone::clone)
     }
 
     /// The plain meshes compared with the robot's geometry.
     pub fn placed(&self) -> &Placed {
-        self.placed.get_or_init(|| placed::all(&self.urdd, self.solids()))
-    }
-
-    /// Whether a link's plain mesh differs from the robot's geometry, so that nothing is compared with it.
-    pub fn is_misplaced(&self, link: usize) -> bool {
-        self.placed().wrong.iter().any(|wrong| wrong.link == link)
+        self.computed.placed.get_or_init(|| placed::all(&self.urdd, self.solids()))
     }
 
     /// The meaning of shape indices, from the hulls and the convex pieces.
@@ -270,4 +258,129 @@ impl<'a> Subject<'a> {
     pub fn profile(&self) -> Profile {
         self.urdd.map_or(Profile::V1, |urdd| urdd.profile())
     }
+}
+
+/// What a URDF says, parsed on first use; `None` if there is no URDF.
+#[derive(Default)]
+pub struct UrdfText(OnceLock<Option<urdf_text::Reading>>);
+
+impl UrdfText {
+    /// What somebody has parsed, if anybody has.
+    pub(super) fn known(reading: Option<urdf_text::Reading>) -> Self {
+        UrdfText(reading.map_or_else(OnceLock::new, |reading| Some(reading).into()))
+    }
+
+    /// What the URDF says, if there is one.
+    pub(super) fn of(&self, urdf: Result<&CarriedUrdf, &NoUrdf>) -> Option<&urdf_text::Reading> {
+        self.0.get_or_init(|| Some(urdf_text::read(&urdf.ok()?.text))).as_ref()
+    }
+
+    /// The robot of the URDF; `None` if it cannot be read (URD011).
+    pub(super) fn robot(&self, urdf: Result<&CarriedUrdf, &NoUrdf>) -> Option<Robot> {
+        let is_utf8 = urdf.is_ok_and(|urdf| urdf.not_utf8_at.is_none());
+        let reading = self.of(urdf).filter(|reading| is_utf8 && reading.problems.is_empty())?;
+        reading.robot.as_ref().map(robot::of_urdf)
+    }
+}
+
+/// A robot by one of its descriptions, with the URDF.
+#[derive(Clone, Copy)]
+pub struct Described<'a> {
+    pub(super) mechanism: Option<&'a Mechanism>,
+    /// The module that describes it, unless the URDF does.
+    pub(super) module: Option<&'a Module>,
+    /// The source URDF, or why it is not available.
+    pub urdf: Result<&'a CarriedUrdf, &'a NoUrdf>,
+    pub(super) text: &'a UrdfText,
+}
+
+impl<'a> Described<'a> {
+    /// The robot.
+    pub fn robot(&self) -> Option<&'a Robot> {
+        self.mechanism.map(Mechanism::robot)
+    }
+
+    /// Its rigid groups; `None` if its joints do not form a tree.
+    pub fn rigid_groups(&self) -> Option<&'a RigidGroups> {
+        self.mechanism?.rigid_groups()
+    }
+
+    /// Its resolved mimic joints; `None` if they cannot be resolved.
+    pub fn mimics(&self) -> Option<&'a Mimics> {
+        self.mechanism?.mimics()
+    }
+
+    /// The file that the robot was read from.
+    pub fn robot_file(&self) -> String {
+        match self.module {
+            Some(module) => module.file("module.json"),
+            None => self.urdf.map_or_else(|_| String::new(), |urdf| urdf.path.clone()),
+        }
+    }
+
+    /// The parsed source URDF; `None` if none is carried. Only meaningful if URD011 passed.
+    pub fn urdf_text(&self) -> Option<&'a urdf_text::Reading> {
+        self.text.of(self.urdf)
+    }
+}
+
+/// Results by key, each computed once.
+pub struct Memo<K, V>(Mutex<HashMap<K, V>>);
+
+impl<K, V> Default for Memo<K, V> {
+    fn default() -> Self {
+        Memo(Mutex::default())
+    }
+}
+
+impl<K: Eq + Hash, V: Copy> Memo<K, V> {
+    /// The result of a key, computed if it is not known.
+    pub fn get(&self, key: K, compute: impl FnOnce() -> V) -> V {
+        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        // Unlocked before it is computed.
+        let found = known().get(&key).copied();
+        found.unwrap_or_else(|| {
+            let value = compute();
+            known().insert(key, value);
+            value
+        })
+    }
+}
+
+/// The place that is farthest from where it should be.
+#[derive(Clone, Copy)]
+pub struct Farthest {
+    /// Coordinates in the frame of the link, m.
+    pub place: [f64; 3],
+    /// Its distance, m.
+    pub distance: f64,
+    /// The distance up to which it is not reported, m.
+    pub tolerance: f64,
+}
+
+impl Farthest {
+    /// The first of the farthest of some places, given with their distances.
+    pub fn of(places: impl Iterator<Item = ([f64; 3], f64)>, tolerance: f64) -> Option<Farthest> {
+        let (place, distance) = places.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+        Some(Farthest { place, distance, tolerance })
+    }
+
+    /// Whether it is reported.
+    pub fn is_off(&self) -> bool {
+        self.distance > self.tolerance
+    }
+}
+
+/// Why a mesh is not convex, and its dents, where they were measured.
+type Concavity = (NotConvex, Option<Dents>);
+
+/// The results of comparisons of mesh files, boxes and spheres with each other. Meshes are by their content: see
+/// [`Solids::content`].
+#[derive(Default)]
+pub struct Memos {
+    /// For a rule and the meshes that it compares: the place farthest off.
+    pub farthest: Memo<(Code, Vec<usize>), Option<Farthest>>,
+    pub convexity: Memo<usize, Option<Concavity>>,
+    /// The size of a box or sphere over that of the smallest one around a mesh. The numbers are those of its size.
+    pub ratios: Memo<(usize, [u64; 4]), Option<f64>>,
 }

@@ -17,16 +17,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod bare_urdf;
 #[doc(hidden)]
 pub mod context;
-#[doc(hidden)]
-pub mod described;
 mod engine;
-#[doc(hidden)]
-pub mod finding;
 mod locate;
-mod memo;
 mod needs;
 #[doc(hidden)]
 pub mod reference;
@@ -38,39 +32,51 @@ pub mod rules;
 pub mod skip;
 #[doc(hidden)]
 pub mod solids;
-mod summary;
 #[doc(hidden)]
 pub mod tolerance;
-mod two_robots;
 #[doc(hidden)]
-pub mod views;
+pub mod views {
+    //! Data that several rules use: schemas of extensions and what their annotations say, shapes and pairs of shapes.
+
+    pub mod annotated;
+    pub mod enclosure;
+    pub mod extension_schema;
+    pub mod judged;
+    mod pattern;
+    mod schema_work;
+    pub mod shared_meshes;
+    pub mod tangled;
+}
 
 #[doc(hidden)]
-pub use bare_urdf::{examine_urdf, found};
+pub use engine::examine_urdf;
 #[doc(hidden)]
 pub use reference::{distances, learned, urdf_text};
-pub use summary::{ModelVerdict, find_errors, verify_model};
 pub use urdd_findings::run::Run;
 pub use urdd_findings::{code, report, selection, settings, settings_file};
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use rayon::prelude::*;
 use thiserror::Error;
 
+use self::code::Code;
 use self::context::Context;
 use self::rule::Rule;
 use self::settings::Settings;
-use urdd_directory::cancellation::Cancelled;
-use urdd_directory::discover::{DiscoverError, discover};
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_directory::discover::{DiscoverError, Found, discover};
+use urdd_directory::robot_file::RobotFile;
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::Source;
 use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
+use urdd_findings::description::Severity;
 use urdd_findings::examined::Examined;
 use urdd_findings::places;
-use urdd_format::report::Kind;
+use urdd_format::report::{Kind, Status};
 use urdd_xml::Xml;
 
 /// Why a run has no result.
@@ -102,24 +108,22 @@ pub fn validate_with<P: AsRef<Path>>(
     settings: &Settings,
     rules: &[&'static Rule],
 ) -> Result<Run, ValidateError> {
-    let mut found = Vec::new();
+    let mut all = Vec::new();
     for path in paths {
         let path = path.as_ref();
-        if bare_urdf::is_urdf(path) {
-            found.push((Kind::Urdf, bare_urdf::found(path)));
+        if path.is_file() && RobotFile::at(path) == Some(RobotFile::Urdf) {
+            all.push((Kind::Urdf, found(path)));
         } else {
-            found.extend(discover(path)?.into_iter().map(|found| (Kind::Urdd, found)));
+            all.extend(discover(path)?.into_iter().map(|found| (Kind::Urdd, found)));
         }
     }
-    let all = found.len();
-    found.retain(|(_, found)| {
-        let mut excludes = settings.excludes.iter();
-        !excludes.any(|exclude| exclude.matches(&found.name))
-    });
-    let kept = places::of_each(found.len());
-    let examined = found.par_iter().map(|(kind, found)| {
+    let excluded = all.len();
+    all.retain(|(_, found)| !settings.excludes.iter().any(|exclude| exclude.matches(&found.name)));
+    let excluded = excluded - all.len();
+    let kept = places::of_each(all.len());
+    let examined = all.par_iter().map(|(kind, found)| {
         let mut examined = Examined::caught(*kind, &found.name, || match (kind, &found.closed) {
-            (Kind::Urdf, _) => bare_urdf::examine(found, rules),
+            (Kind::Urdf, _) => engine::examine_urdf_file(found, rules),
             (Kind::Urdd, Some(error)) => Err(error.clone()),
             (Kind::Urdd, None) => {
                 Ok(examine(Urdd::read(&found.path)?, &found.name, settings, rules))
@@ -130,9 +134,22 @@ pub fn validate_with<P: AsRef<Path>>(
     });
     let examined = examined.collect();
     settings.cancellation.check()?;
-    let excluded = all - found.len();
-    let folders = found.into_iter().map(|(_, found)| found.path);
+    let folders = all.into_iter().map(|(_, found)| found.path);
     Ok(Run::of(examined, folders.collect(), excluded, settings))
+}
+
+/// The URDF at a path: its folder, and its file name.
+#[doc(hidden)]
+pub fn found(path: &Path) -> Found {
+    // The target of a symbolic link can be in another folder.
+    let target = path.is_symlink().then(|| path.canonicalize().unwrap_or_default());
+    let path = target.as_deref().unwrap_or(path);
+    let name = path.file_name().unwrap_or_default();
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    Found { path: folder.to_owned(), name: name.to_string_lossy().into_owned(), closed: None }
 }
 
 /// Examines the URDD of a source with every rule. `name` is its name in the report. Ignores [`Settings::excludes`].
@@ -194,7 +211,75 @@ fn examine_with(
     settings: &Settings,
     rules: &[&'static Rule],
 ) -> Examined {
-    let context = Context::new(urdd, settings.class).knowing(urdf);
-    let context = context.deep(settings.deep).until(&settings.cancellation);
-    context.examined(name, two_robots::run(&context, rules))
+    let context = Context::new(urdd, urdf, settings);
+    context.examined(name, engine::run(&context, rules))
+}
+
+/// The rules that find errors in a URDD, each with its number of findings, as text; empty if there are none. For a URDD
+/// that cannot be examined, the reason.
+///
+/// # Errors
+/// If cancelled.
+pub fn find_errors(path: &Path, cancellation: &Cancellation) -> Result<Vec<String>, Cancelled> {
+    let usual = Settings { cancellation: cancellation.clone(), ..Settings::default() };
+    let run = match validate(&[path], &usual) {
+        Ok(run) => run,
+        Err(ValidateError::Cancelled(cancelled)) => return Err(cancelled),
+        Err(error) => return Ok(vec![error.to_string()]),
+    };
+    let mut codes: BTreeMap<Option<Code>, usize> = BTreeMap::new();
+    for urdd in run.report.urdds {
+        if let Some(reason) = urdd.reason {
+            return Ok(vec![reason]);
+        }
+        let errors = urdd.findings.iter();
+        for finding in errors.filter(|finding| finding.severity == Severity::Error) {
+            *codes.entry(Code::parse(&finding.code)).or_default() += 1;
+        }
+    }
+    let codes = codes.into_iter().filter_map(|(code, count)| Some((code?, count)));
+    let texts = codes.map(|(code, count)| match count {
+        1 => format!("{code} (1 finding)"),
+        _ => format!("{code} ({count} findings)"),
+    });
+    Ok(texts.collect())
+}
+
+/// The result of recounting the rates of a model (SPEC 8.8.9 to 8.8.12).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ModelVerdict {
+    /// The stated rates are right.
+    Verified,
+    /// The stated rates are wrong: the codes of the rules that found it.
+    Refuted(Vec<String>),
+    /// The rates were not verified, for these reasons.
+    NotVerified(Vec<String>),
+}
+
+/// Runs the rules that verify the self-collision model of the URDD at `path`, and the rules that they need.
+pub fn verify_model(path: &Path) -> ModelVerdict {
+    let all = rules::all();
+    let mut wanted = BTreeSet::from([Code::LRN010, Code::LRN011]);
+    let mut open: Vec<Code> = wanted.iter().copied().collect();
+    while let Some(code) = open.pop() {
+        let needs = all.iter().filter(|rule| rule.code == code);
+        let needs = needs.flat_map(|rule| rule.needs).flat_map(|need| need.codes());
+        open.extend(needs.filter(|code| wanted.insert(*code)));
+    }
+    let wanted: Vec<&'static Rule> =
+        all.into_iter().filter(|rule| wanted.contains(&rule.code)).collect();
+    let urdd = match validate_with(&[path], &Settings::default(), &wanted) {
+        Ok(run) => run.report.urdds.into_iter().next(),
+        Err(error) => return ModelVerdict::NotVerified(vec![error.to_string()]),
+    };
+    let Some(urdd) = urdd else { return ModelVerdict::NotVerified(Vec::new()) };
+    let failed = urdd.checks.iter().filter(|check| check.status == Status::Failed);
+    let refuted: Vec<String> =
+        failed.map(|check| check.code.clone()).filter(|code| code.starts_with("LRN")).collect();
+    if !refuted.is_empty() {
+        return ModelVerdict::Refuted(refuted);
+    }
+    let open = urdd.model_not_verified.into_iter().flat_map(|open| open.reasons);
+    let reasons: Vec<String> = open.chain(urdd.reason).collect();
+    if reasons.is_empty() { ModelVerdict::Verified } else { ModelVerdict::NotVerified(reasons) }
 }

@@ -106,7 +106,9 @@ impl<'a> Names<'a> {
             ModuleKind::Dof | ModuleKind::Bounds => self.dof(index(0)?),
             ModuleKind::Connections if key == "root_paths" => self.link(index(0)?),
             ModuleKind::Connections => match index(1) {
-                Some(other) => self.links(index(0)?, other),
+                Some(other) => {
+                    Some(format!("{}, {}", self.link_name(index(0)?)?, self.link_name(other)?))
+                }
                 None => self.link(index(0)?),
             },
             ModuleKind::OriginalMeshes => match self.subject.urdd?.document(kind)? {
@@ -160,10 +162,6 @@ impl<'a> Names<'a> {
 
     fn link(&self, link: usize) -> Option<String> {
         Some(format!("link {}", self.link_name(link)?))
-    }
-
-    fn links(&self, a: usize, b: usize) -> Option<String> {
-        Some(format!("{}, {}", self.link_name(a)?, self.link_name(b)?))
     }
 
     fn piece(&self, link: usize, piece: Option<usize>) -> Option<String> {

@@ -2,8 +2,7 @@
 
 use std::ops::Deref;
 
-use super::context::Context;
-use super::described::Described;
+use super::context::{Context, Described};
 use urdd_findings::code::Code;
 use urdd_findings::description::{Consequence, Description};
 use urdd_findings::finding::Findings;
@@ -51,6 +50,15 @@ pub enum Need {
 }
 
 impl Need {
+    /// The needs of a list, those of groups one by one.
+    pub fn each_of(needs: &[Need]) -> Vec<Need> {
+        let each = needs.iter().flat_map(|need| match need {
+            Need::All(needs) => Need::each_of(needs),
+            need => vec![*need],
+        });
+        each.collect()
+    }
+
     /// The rules that decide whether it is met.
     pub fn codes(&self) -> Vec<Code> {
         match self {
@@ -92,98 +100,65 @@ impl Deref for Rule {
 
 /// The consequence of a family's faults, unless a rule declares another.
 pub const fn of_family(code: &str) -> Consequence {
-    match code.as_bytes() {
-        [b'U', b'R', b'D', ..]
-        | [b'D', b'O', b'F', ..]
-        | [b'C', b'H', b'N', ..]
-        | [b'C', b'O', b'N', ..]
-        | [b'B', b'N', b'D', ..]
-        | [b'K', b'I', b'N', ..]
-        | [b'C', b'N', b'F', ..]
-        | [b'L', b'O', b'P', ..] => Consequence::WrongMotion,
-        [b'M', b'S', b'H', ..] => Consequence::MissingGeometry,
-        [b'S', b'H', b'P', ..] | [b'S', b'P', b'H', ..] => Consequence::Collisions,
-        [b'S', b'R', b'C', ..] => Consequence::Looseness,
+    match code.as_bytes().first_chunk() {
+        Some(b"URD" | b"DOF" | b"CHN" | b"CON" | b"BND" | b"KIN" | b"CNF" | b"LOP") => {
+            Consequence::WrongMotion
+        }
+        Some(b"MSH") => Consequence::MissingGeometry,
+        Some(b"SHP" | b"SPH") => Consequence::Collisions,
+        Some(b"SRC") => Consequence::Looseness,
         _ => Consequence::Format,
     }
 }
 
-/// Declares the rules of a file, each as an associated constant of `Declared` with its code as its name. A rule is
-/// checked by the function that it names, otherwise by the file's function `check`; `of Robot` makes it a rule of URDFs
+/// Declares the rules of a file, as its `RULES`, each with the function that checks it; `of Robot` makes it a rule of URDFs
 /// without a URDD, too. `urdd explain` prints its documentation.
 macro_rules! declare_rule {
     ($(
         $(#[doc = $doc:literal])+
         $code:ident $name:literal, $severity:ident, clause $clause:literal, since $since:literal,
         phase $phase:ident, $(consequence $consequence:ident,)?
-        needs [$($need:expr),* $(,)?], $(of $of:ident,)? $(check $check:expr,)?
+        needs [$($need:expr),* $(,)?], $(of $of:ident,)? check $check:expr,
     )+) => {
-        /// The rules of this file. A `static` of the module would be compiled into whatever does not use it, too.
-        pub struct Declared;
-
-        impl Declared {
-            /// All of them.
-            pub const RULES: &'static [&'static $crate::rule::Rule] = &[$(Self::$code),+];
-
-            $(
-                $(#[doc = $doc])+
-                pub const $code: &'static $crate::rule::Rule = &{
-                    #[allow(unused_imports)]
-                    use $crate::needs::*;
-                    #[allow(unused_imports)]
-                    use $crate::rule::Need::*;
-                    #[allow(unused_imports)]
-                    use urdd_findings::code::Code::*;
-                    $crate::rule::Rule {
-                        description: urdd_findings::description::Description {
-                            code: urdd_findings::code::Code::$code,
-                            name: $name,
-                            severity: urdd_findings::description::Severity::$severity,
-                            clause: Some($clause),
-                            since: $since,
-                            consequence: {
-                                #[allow(unused_variables)]
-                                let consequence = $crate::rule::of_family(stringify!($code));
-                                $(let consequence = urdd_findings::description::Consequence::$consequence;)?
-                                consequence
-                            },
-                            phase: urdd_findings::description::Phase::$phase,
-                            doc: &[$($doc),+],
-                        },
-                        needs: &[$($need),*],
-                        check: $crate::rule::check_of!($($of)? $(=> $check)?),
-                    }
-                };
-            )+
-        }
+        /// The rules of this file. A `static` would be compiled into whatever does not use it, too.
+        pub const RULES: &[&$crate::rule::Rule] = &[$({
+            #[allow(unused_imports)]
+            use $crate::needs::*;
+            #[allow(unused_imports)]
+            use $crate::rule::Need::*;
+            #[allow(unused_imports)]
+            use urdd_findings::code::Code::*;
+            &$crate::rule::Rule {
+                description: urdd_findings::description::Description {
+                    code: urdd_findings::code::Code::$code,
+                    name: $name,
+                    severity: urdd_findings::description::Severity::$severity,
+                    clause: Some($clause),
+                    since: $since,
+                    consequence: {
+                        #[allow(unused_variables)]
+                        let consequence = $crate::rule::of_family(stringify!($code));
+                        $(let consequence = urdd_findings::description::Consequence::$consequence;)?
+                        consequence
+                    },
+                    phase: urdd_findings::description::Phase::$phase,
+                    doc: &[$($doc),+],
+                },
+                needs: &[$($need),*],
+                check: $crate::rule::check_of!($check $(, $of)?),
+            }
+        }),+];
     };
 }
 pub(crate) use declare_rule;
 
-/// The check that a rule names, otherwise the function `check` of its file; of a URDD, unless the rule says of what.
+/// A check of a URDD, unless the rule says of what it is.
 macro_rules! check_of {
-    () => {
-        $crate::rule::check_of!(Urdd => check)
+    ($check:expr) => {
+        $crate::rule::CheckOf::Urdd($check)
     };
-    ($of:ident) => {
-        $crate::rule::check_of!($of => check)
-    };
-    (=> $check:expr) => {
-        $crate::rule::check_of!(Urdd => $check)
-    };
-    ($of:ident => $check:expr) => {
+    ($check:expr, $of:ident) => {
         $crate::rule::CheckOf::$of($check)
     };
 }
 pub(crate) use check_of;
-
-/// Lists the rules of a family by their files, as `rules()`.
-macro_rules! rules {
-    ($($file:ident),+ $(,)?) => {
-        /// The rules of this family.
-        pub fn rules() -> Vec<&'static $crate::rule::Rule> {
-            [$($file::Declared::RULES),+].concat()
-        }
-    };
-}
-pub(crate) use rules;

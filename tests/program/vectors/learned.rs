@@ -66,7 +66,7 @@ fn intervals() {
 #[test]
 fn clearances() {
     let (model, module, vectors) = network();
-    let judge = urdd_validate::learned::network::Network::new(&module);
+    let judge = urdd_validate::learned::Network::new(&module);
     let mut all = Vec::new();
     for (k, vector) in vectors.iter().enumerate() {
         let found = model.clearances(&vector.configuration).unwrap();

@@ -224,7 +224,7 @@ pub fn numbers() -> Vec<Number> {
             "8 * 2^-23 / 1e-3 of its largest absolute coordinate",
             ("8 * 2^-23", 8.0 * (-23_f64).exp2()),
             vec![Sides::Elsewhere(
-                "no case yet: crates/urdd-validate/src/solids/stl_records.rs judges it",
+                "no case yet: crates/urdd-validate/src/solids/file.rs judges it",
             )],
         ),
         number(

@@ -63,10 +63,6 @@ impl Gap {
             [one.position_tolerance + POSITION_OF_REACH * reach, one.rotation_tolerance + CLOSED];
         Some(Gap { position, rotation, most })
     }
-
-    pub fn is_closed(&self) -> bool {
-        self.position <= self.most[0] && self.rotation <= self.most[1]
-    }
 }
 
 /// The sum of a coupling, and how far from 0 it may be.

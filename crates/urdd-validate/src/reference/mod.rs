@@ -5,17 +5,25 @@
 //! Here are the link poses, computed from the text of the carried URDF (multiplied by nalgebra). They share nothing with
 //! the modules or with `urdd_kinematics`, which they verify. Nothing recurses, because a chain may be as long as the file.
 
-pub mod budget;
 pub mod distances;
 pub mod learned;
 pub mod loops;
-pub mod motion;
-pub mod spheres;
+pub mod samples;
+pub mod spheres {
+    //! Spheres that stand for links, judged by SPEC 8.9 alone: how far they are from the pieces ([`fit`]), whether they
+    //! cover these ([`cells`]), which of them touch in sampled configurations, and how often that is right ([`contacts`]).
+    //! Shares nothing with the making of spheres; poses and contacts of pieces are those of the other rules.
+
+    pub mod cells;
+    pub mod contacts;
+    pub mod fit;
+}
 pub mod urdf_text;
 
 use std::collections::HashMap;
+use std::f64::consts::PI;
 
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use urdd_document::pose::has_quaternions;
 use urdd_format::urdf::{self as v1, JointType, UrdfModule};
@@ -67,15 +75,13 @@ impl Reference {
     /// # Errors
     /// Why the URDF cannot be used.
     pub fn new(robot: &UrdfModule, mimics: MimicDofs) -> Result<Reference, String> {
-        let names = |names: &mut dyn Iterator<Item = &str>| -> HashMap<String, usize> {
-            let mut places = HashMap::new();
-            for (index, name) in names.enumerate() {
-                places.entry(name.to_owned()).or_insert(index);
-            }
-            places
+        // Of several of one name, the first.
+        let places = |names: Vec<&str>| -> HashMap<String, usize> {
+            let names = names.into_iter().enumerate().rev();
+            names.map(|(index, name)| (name.to_owned(), index)).collect()
         };
-        let links = names(&mut robot.links.iter().map(|link| link.name.as_str()));
-        let drivers = names(&mut robot.joints.iter().map(|joint| joint.name.as_str()));
+        let links = places(robot.links.iter().map(|link| link.name.as_str()).collect());
+        let drivers = places(robot.joints.iter().map(|joint| joint.name.as_str()).collect());
         let link = |name: &str| {
             links.get(name).copied().ok_or_else(|| format!("no link is called {name}"))
         };
@@ -83,7 +89,7 @@ impl Reference {
         let mut dofs = 0;
         let mut joints = Vec::with_capacity(robot.joints.len());
         for joint in &robot.joints {
-            let freedom = motion::freedom(joint.joint_type);
+            let freedom = freedom(joint.joint_type);
             let source = match &joint.mimic {
                 _ if freedom == 0 => Source::None,
                 Some(mimic) if mimics == MimicDofs::Follow => Source::Mimic {
@@ -128,7 +134,7 @@ impl Reference {
     /// An interval for configurations of each DOF: the URDF's limits, or [-pi, pi] without limits or if an angle is
     /// beyond 1e6 rad.
     pub fn intervals(&self) -> Vec<[f64; 2]> {
-        let free = [-std::f64::consts::PI, std::f64::consts::PI];
+        let free = [-PI, PI];
         let mut intervals = vec![free; self.dofs];
         for joint in &self.joints {
             let Some(limits) = joint.limits else { continue };
@@ -151,7 +157,7 @@ impl Reference {
         let mut poses = vec![Isometry3::identity(); self.links];
         for &index in &self.order {
             let joint = &self.joints[index];
-            let motion = motion::motion(joint.kind, joint.axis, &positions[index]);
+            let motion = motion(joint.kind, joint.axis, &positions[index]);
             poses[joint.child] = poses[joint.parent] * joint.origin * motion;
         }
         Some(poses)
@@ -166,7 +172,7 @@ impl Reference {
             while known[at].is_none() {
                 let mut position = [0.0; 6];
                 if let Source::Own(first) = self.joints[at].source {
-                    let freedom = motion::freedom(self.joints[at].kind);
+                    let freedom = freedom(self.joints[at].kind);
                     position[..freedom].copy_from_slice(&configuration[first..first + freedom]);
                 }
                 known[at] = Some(position);
@@ -239,5 +245,52 @@ fn order(links: usize, joints: &[Joint]) -> Result<Vec<usize>, String> {
         Ok(order)
     } else {
         Err("the joints go in a circle".to_owned())
+    }
+}
+
+/// Number of values of a joint's position.
+pub fn freedom(kind: JointType) -> usize {
+    match kind {
+        JointType::Fixed => 0,
+        JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
+        JointType::Planar | JointType::Spherical => 3,
+        JointType::Floating => 6,
+    }
+}
+
+/// The motion of a joint of a type at a position (SPEC 9.1), by nalgebra alone; only the first [`freedom`] numbers are used.
+pub fn motion(kind: JointType, axis: [f64; 3], q: &[f64; 6]) -> Isometry3<f64> {
+    let axis = Vector3::from(axis);
+    // Divided first, so that squares of huge numbers do not overflow.
+    let largest = axis.amax();
+    let unit = if largest > 0.0 { (axis / largest).normalize() } else { Vector3::x() };
+    let turn = |v: Vector3<f64>| UnitQuaternion::from_scaled_axis(v);
+    let (shift, rotation) = match kind {
+        JointType::Fixed => (Vector3::zeros(), UnitQuaternion::identity()),
+        JointType::Revolute | JointType::Continuous => (Vector3::zeros(), turn(unit * q[0])),
+        JointType::Prismatic => (unit * q[0], UnitQuaternion::identity()),
+        JointType::Planar => {
+            let basis = turn(arc_from_z(unit));
+            (basis * Vector3::new(q[0], q[1], 0.0), turn(unit * q[2]))
+        }
+        JointType::Floating => {
+            (Vector3::new(q[0], q[1], q[2]), turn(Vector3::new(q[3], q[4], q[5])))
+        }
+        JointType::Spherical => (Vector3::zeros(), turn(Vector3::new(q[0], q[1], q[2]))),
+    };
+    Isometry3::from_parts(Translation3::from(shift), rotation)
+}
+
+/// The shortest arc from z to a unit axis, as a rotation vector (SPEC 5.9). `rotation_between` computes the angle from
+/// its cosine, and loses the arc near -z.
+fn arc_from_z(axis: Vector3<f64>) -> Vector3<f64> {
+    let sine = axis.x.hypot(axis.y);
+    let angle = sine.atan2(axis.z);
+    if sine >= 1e-10 {
+        Vector3::new(-axis.y, axis.x, 0.0) * (angle / sine)
+    } else if axis.z < 0.0 {
+        Vector3::x() * PI
+    } else {
+        Vector3::zeros()
     }
 }

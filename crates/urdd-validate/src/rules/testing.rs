@@ -8,13 +8,13 @@ declare_rule! {
     /// Shows how a rule that runs into a fault of its own is reported: as crashed, with the verdict
     /// `incomplete` and exit status 101, and never as a URDD without faults.
     TST001 "crashes", Error, clause "13.1", since "0.1.0",
-    phase Files, needs [],
+    phase Files, needs [], check crashes,
 }
 
 #[expect(clippy::panic, reason = "the purpose of the rule")]
-fn check(context: &Context, _: &mut Findings) -> Option<()> {
+fn crashes(context: &Context, _: &mut Findings) -> Option<()> {
     panic!("crashed on purpose at {} modules", context.modules().len())
 }
 
 /// A rule that crashes: TST001.
-pub const CRASHING: &crate::rule::Rule = Declared::RULES[0];
+pub const CRASHING: &crate::rule::Rule = RULES[0];

@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use super::file::{self, MeshFault};
-use super::{glb_chunks, stl_records};
 use crate::tolerance::mesh_resolution;
 use urdd_document::mesh_files::MeshFiles;
 use urdd_document::meshes::{MeshFormat, MeshPath, Meshes};
@@ -141,7 +140,7 @@ const MAX_COMPARED: usize = 8;
 
 /// Whether two lists of files have the same formats and contents.
 fn are_copies(files: &mut MeshFiles, profile: Profile, a: &[&MeshPath], b: &[&MeshPath]) -> bool {
-    let mut bytes = |path: &MeshPath| file::bytes(files, profile, path.path).ok();
+    let mut bytes = |path: &MeshPath| file::read_bytes(files, profile, path.path).ok();
     a.len() == b.len()
         && a.iter().zip(b).all(|(a, b)| {
             let end = |path: &str| path.rsplit_once('.').map(|(_, end)| end.to_owned());
@@ -176,12 +175,12 @@ fn read(
             fault: None,
             not_glb: false,
         };
-        let read = file::bytes(files, profile, path.path).and_then(|bytes| {
+        let read = file::read_bytes(files, profile, path.path).and_then(|bytes| {
             file.not_glb = format == MeshFormat::Glb
-                && matches!(glb_chunks::fault(&bytes[..], bytes.len() as u64), Ok(Some(_)));
+                && matches!(file::glb_fault(&bytes[..], bytes.len() as u64), Ok(Some(_)));
             let (scene, fault) = file::derived(&bytes, path.path, profile)?;
             let of_stl = profile == Profile::V1 && scene.format == Content::StlBinary;
-            let fault = fault.or_else(|| stl_records::fault(&bytes).filter(|_| of_stl));
+            let fault = fault.or_else(|| file::stl_fault(&bytes).filter(|_| of_stl));
             Ok((scene, fault))
         });
         match read {

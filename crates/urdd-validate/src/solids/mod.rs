@@ -7,12 +7,8 @@ pub mod cut;
 pub mod derived;
 pub mod expected;
 pub mod file;
-pub mod glb_chunks;
-pub mod original;
 pub mod placed;
 pub mod polytope;
-pub mod primitive;
-pub mod stl_records;
 
 use std::collections::HashMap;
 use std::hash::{BuildHasher, RandomState};
@@ -20,15 +16,15 @@ use std::hash::{BuildHasher, RandomState};
 use rayon::prelude::*;
 
 use self::derived::Derived;
-use self::original::Original;
+use self::file::Original;
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 
 #[derive(Debug, Default)]
 pub struct Solids {
+    /// In order of links and pieces.
     derived: HashMap<ModuleKind, Vec<Derived>>,
-    by_place: HashMap<(ModuleKind, usize, usize), usize>,
     contents: HashMap<(ModuleKind, usize, usize), usize>,
     originals: HashMap<String, Original>,
 }
@@ -36,14 +32,10 @@ pub struct Solids {
 impl Solids {
     /// Reads every mesh file that the modules name, in parallel.
     pub fn read(urdd: &Urdd) -> Self {
-        let mut solids = Solids { originals: original::read_all(urdd), ..Solids::default() };
+        let mut solids = Solids { originals: file::read_originals(urdd), ..Solids::default() };
         for kind in urdd_document::meshes::DERIVED {
             let Some(meshes) = urdd.meshes(*kind) else { continue };
-            let read = derived::read_all(urdd, &meshes);
-            for (at, mesh) in read.iter().enumerate() {
-                solids.by_place.insert((*kind, mesh.link, mesh.piece), at);
-            }
-            solids.derived.insert(*kind, read);
+            solids.derived.insert(*kind, derived::read_all(urdd, &meshes));
         }
         solids.contents = solids.compare();
         solids
@@ -86,22 +78,26 @@ impl Solids {
         self.derived.get(&kind).map_or(&[], Vec::as_slice)
     }
 
+    fn at(&self, kind: ModuleKind, link: usize, piece: usize) -> Option<&Derived> {
+        let meshes = self.derived(kind);
+        let place = meshes.binary_search_by_key(&(link, piece), |mesh| (mesh.link, mesh.piece));
+        meshes.get(place.ok()?)
+    }
+
     /// The mesh of a link (piece 0) or one of its pieces; `None` if the module has none, or none of its files can be
     /// read.
     pub fn mesh(&self, kind: ModuleKind, link: usize, piece: usize) -> Option<&Mesh> {
-        let at = *self.by_place.get(&(kind, link, piece))?;
-        self.derived(kind).get(at)?.mesh.as_ref()
+        self.at(kind, link, piece)?.mesh.as_ref()
     }
 
     /// The same, if all its files are sound and equal.
     pub fn sound(&self, kind: ModuleKind, link: usize, piece: usize) -> Option<&Mesh> {
-        let at = *self.by_place.get(&(kind, link, piece))?;
-        self.derived(kind).get(at)?.sound()
+        self.at(kind, link, piece)?.sound()
     }
 
     /// Whether a module names a mesh for a link (piece 0) or a piece.
     pub fn holds(&self, kind: ModuleKind, link: usize, piece: usize) -> bool {
-        self.by_place.contains_key(&(kind, link, piece))
+        self.at(kind, link, piece).is_some()
     }
 
     /// A mesh that the URDF names, by its path in `original_meshes_module`.

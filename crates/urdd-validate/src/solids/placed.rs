@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::derived::{self, Derived};
 use super::expected::{self, Expected};
 use super::polytope::step;
-use super::{Solids, cut, original};
+use super::{Solids, cut, file};
 use crate::tolerance::{PRIMITIVE_AREA, PRIMITIVE_SAG, placing_resolution};
 use urdd_document::urdd::Urdd;
 use urdd_document::usable_geometry::UsableGeometry;
@@ -51,7 +51,7 @@ pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
         let fault = fault(&expected, found).filter(|_| !expected.is_empty());
         // A face that is not convex may be cut otherwise.
         let fault = fault.filter(|_| {
-            let uncut = |path: &str| original::uncut(urdd, path).or_else(|| original(path));
+            let uncut = |path: &str| file::uncut(urdd, path).or_else(|| original(path));
             let expected = expected::of_link(urdd, &uncut, &usable, mesh.link, kind);
             let cut = expected.and_then(|expected| cut::as_found(expected, found));
             cut.is_none_or(|expected| self::fault(&expected, found).is_some())

@@ -8,6 +8,7 @@ use jsonschema::{Keyword, ValidationError, ValidationOptions};
 use serde_json::{Map, Value};
 
 use crate::context::Context;
+use urdd_document::robot::Link;
 use urdd_format::annotations::{self, INDEX, LENGTH, Thing};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 
@@ -160,7 +161,9 @@ pub struct Pieces {
 impl Counts {
     pub fn of(context: &Context) -> Counts {
         let robot = context.robot();
-        let most = |counts: &mut dyn Iterator<Item = usize>| counts.max().unwrap_or(0);
+        let most = |count: fn(&Link) -> usize| {
+            robot.map(|robot| robot.links.iter().map(count).max().unwrap_or(0))
+        };
         let meshes = |kind| {
             let meshes = context.meshes(kind)?;
             Some((0..meshes.num_links()).map(|link| meshes.count(link)).collect::<Vec<_>>())
@@ -175,15 +178,12 @@ impl Counts {
             Some(ModuleDocument::SelfCollisionModel(module)) => Some(module.pairs.len()),
             _ => None,
         };
-        let visuals = robot.map(|of| most(&mut of.links.iter().map(|link| link.visual.len())));
-        let collisions =
-            robot.map(|of| most(&mut of.links.iter().map(|link| link.collision.len())));
         let all = [
             (Thing::Link, robot.map(|robot| robot.links.len())),
             (Thing::Joint, robot.map(|robot| robot.joints.len())),
             (Thing::Dof, context.dofs().map(|dofs| dofs.num_dofs.get())),
-            (Thing::Visual, visuals),
-            (Thing::Collision, collisions),
+            (Thing::Visual, most(|link| link.visual.len())),
+            (Thing::Collision, most(|link| link.collision.len())),
             (Thing::FullShape, hulls.map(|of| of.iter().filter(|count| **count > 0).count())),
             (Thing::DecompositionShape, pieces.as_ref().map(|of_link| of_link.iter().sum())),
             (Thing::Part, parts),

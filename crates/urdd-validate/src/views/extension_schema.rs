@@ -273,41 +273,35 @@ fn with_patterns_of_the_library(schema: &Value) -> Cow<'_, Value> {
 /// defined, and texts that are no patterns.
 pub fn faults_of_parts(schema: &Value) -> Vec<SchemaFault> {
     let mut faults = Vec::new();
-    for (pointer, schema) in parts(schema) {
+    for (of_part, schema) in parts(schema) {
+        let mut fault = |at: &str, message: String| {
+            faults.push(SchemaFault { pointer: of_part.clone() + at, message });
+        };
         for key in ["$ref", "$dynamicRef"] {
             if let Some(target) = schema.get(key).and_then(Value::as_str)
                 && !target.starts_with('#')
             {
                 let shown: String = target.chars().take(80).collect();
-                faults.push(SchemaFault {
-                    pointer: format!("{pointer}/{key}"),
-                    message: format!(
+                fault(
+                    &format!("/{key}"),
+                    format!(
                         "`{shown}` leads out of this file, and nothing else is opened: put what it names into `$defs`, and refer to it by `#/$defs/...`"
                     ),
-                });
+                );
             }
         }
-        for fault in schema.as_object().map(annotations::faults).unwrap_or_default() {
-            faults.push(SchemaFault {
-                pointer: format!("{pointer}/{}", fault.keyword),
-                message: fault.to_string(),
-            });
+        for annotation in schema.as_object().map(annotations::faults).unwrap_or_default() {
+            fault(&format!("/{}", annotation.keyword), annotation.to_string());
         }
-        if !pointer.is_empty() && schema.get("$id").is_some() {
-            faults.push(SchemaFault {
-                pointer: format!("{pointer}/$id"),
-                message: "only the schema itself may have an `$id`: take this one out, and refer to the part by `#/$defs/...`".to_owned(),
-            });
+        if !of_part.is_empty() && schema.get("$id").is_some() {
+            fault("/$id", "only the schema itself may have an `$id`: take this one out, and refer to the part by `#/$defs/...`".to_owned());
         }
         for (inner, text) in patterns(schema) {
             if let Err(why) = pattern::in_words_of_the_library(text) {
                 let shown: String = text.chars().take(80).collect();
-                faults.push(SchemaFault {
-                    pointer: format!("{pointer}{inner}"),
-                    message: format!(
-                        "`{shown}` is no pattern of JavaScript in Unicode mode: {why}"
-                    ),
-                });
+                let message =
+                    format!("`{shown}` is no pattern of JavaScript in Unicode mode: {why}");
+                fault(&inner, message);
             }
         }
     }

@@ -19,7 +19,9 @@ pub fn judged(context: &Context, findings: &mut Findings, part: Part, by: &[Part
             findings.not_verified(part, Why::Unreadable);
             return false;
         }
-        if matches!(needed, Part::Plain(_)) && context.is_misplaced(link) {
+        // Nothing is compared with a plain mesh that differs from the robot's geometry.
+        let is_wrong = || context.placed().wrong.iter().any(|wrong| wrong.link == link);
+        if matches!(needed, Part::Plain(_)) && is_wrong() {
             findings.not_verified(part, Why::Failed(Code::MSH015));
             return false;
         }

@@ -8,7 +8,6 @@ const NEVER: &str = "[^\\s\\S]";
 /// `.`: all but the four ends of lines.
 const NOT_AN_END_OF_LINE: &str = "[^\\n\\r\\u{2028}\\u{2029}]";
 
-/// Why a text is not a pattern.
 type Fault = &'static str;
 
 const UNCLOSED: Fault = "a `[` is not closed";

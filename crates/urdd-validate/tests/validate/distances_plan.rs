@@ -1,6 +1,6 @@
 //! Plans the number of configurations.
 
-use urdd_validate::distances::plan::*;
+use urdd_validate::reference::samples::*;
 
 fn kinds() -> [Option<Work>; 4] {
     let work = |each| Some(Work { once: 0, each });

@@ -1,6 +1,6 @@
 //! Counts how often a model is right: SPEC 8.8.9 and 8.8.10.
 
-use urdd_validate::learned::counts::*;
+use urdd_validate::learned::*;
 
 #[test]
 fn a_step_ends_after_0_05_or_at_the_next_configuration() {

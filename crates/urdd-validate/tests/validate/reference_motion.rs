@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use urdd_format::urdf::JointType;
-use urdd_validate::reference::motion::*;
+use urdd_validate::reference::*;
 
 /// Where the motion of a planar joint at (x, y) moves the origin.
 fn planar(axis: [f64; 3], [x, y]: [f64; 2]) -> Vector3<f64> {

@@ -1,6 +1,6 @@
 //! The rules of `bounds::unlimited`.
 
-use urdd_validate::rules::bounds::limits::is_frozen;
+use urdd_validate::rules::bounds::is_frozen;
 
 #[test]
 fn what_legacy_modules_added_is_no_range() {

@@ -1,7 +1,7 @@
 //! The rules of `connections::tables`.
 
 use urdd_document::tree::Tree;
-use urdd_validate::rules::connections::tables::*;
+use urdd_validate::rules::connections::*;
 
 /// The tree of links in which `parent` gives the parent of each link except the first.
 fn tree(links: usize, parent: impl Fn(usize) -> usize) -> Tree {

@@ -3,7 +3,7 @@
 use urdd_document::tree::Tree;
 use urdd_format::connections::LinkPath;
 use urdd_format::index::{JointIdx, LinkIdx};
-use urdd_validate::rules::connections::paths::*;
+use urdd_validate::rules::connections::*;
 
 /// 3 is the root; 3-2-0 by joints 1 and 0; 2-1 by joint 2; 3-4 by joint 3.
 fn tree() -> Tree {

@@ -1,6 +1,6 @@
 //! The rules of `dof::counts`.
 
-use urdd_validate::rules::dof::counts::*;
+use urdd_validate::rules::dof::*;
 
 #[test]
 fn the_odd_one_is_named() {

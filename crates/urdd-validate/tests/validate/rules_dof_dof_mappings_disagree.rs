@@ -1,6 +1,6 @@
 //! The rules of `dof::mappings`.
 
-use urdd_validate::rules::dof::mappings::*;
+use urdd_validate::rules::dof::*;
 
 fn inverse(joint_of_dof: &[usize], dofs_of_joint: &[&[usize]]) -> bool {
     are_inverse(joint_of_dof, dofs_of_joint.iter().map(|list| list.iter().copied()))

@@ -1,7 +1,7 @@
 //! The rule `legacy::adjusted_mappings_wrong`.
 
 use urdd_findings::finding::Findings;
-use urdd_validate::rules::legacy::conventions::*;
+use urdd_validate::rules::legacy::*;
 
 fn pointers(to_base: &[usize], to_adjusted: &[Option<usize>], deleted: usize) -> Vec<String> {
     let mapping = Mapping {

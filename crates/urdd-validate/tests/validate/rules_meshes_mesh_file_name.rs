@@ -1,6 +1,6 @@
 //! The rules of `meshes::file_paths`.
 
-use urdd_validate::rules::meshes::file_paths::slug;
+use urdd_validate::rules::meshes::lists::slug;
 
 #[test]
 fn names_become_slugs() {

@@ -1,6 +1,6 @@
 //! The rules of `urdf::joints`.
 
-use urdd_validate::rules::urdf::joints::has_direction;
+use urdd_validate::rules::urdf::tree::has_direction;
 
 #[test]
 fn short_axes_have_a_direction() {

@@ -1,6 +1,6 @@
 //! The header of a binary glTF, and its chunks.
 
-use urdd_validate::solids::glb_chunks;
+use urdd_validate::solids::file::glb_fault;
 
 /// Kind, stated length, content.
 type Chunk = (&'static [u8; 4], u32, &'static [u8]);
@@ -27,7 +27,7 @@ fn fault(bytes: &[u8]) -> Option<String> {
 }
 
 fn fault_in(bytes: &[u8], size: u64) -> Option<String> {
-    glb_chunks::fault(bytes, size).expect("bytes can be read")
+    glb_fault(bytes, size).expect("bytes can be read")
 }
 
 #[test]

@@ -3,9 +3,8 @@
 use nalgebra::{Matrix3, Rotation3};
 use urdd_format::urdf::{Capsule, Cuboid, Cylinder, Geometry, Sphere};
 use urdd_geometry::{Mesh, primitives};
-use urdd_validate::solids::expected::Expected;
+use urdd_validate::solids::expected::{Expected, Primitive};
 use urdd_validate::solids::placed::*;
-use urdd_validate::solids::primitive::Primitive;
 
 /// A cylinder's triangles with this many corners per circle.
 fn coarse(corners: usize, radius: f64, length: f64) -> Mesh {

@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use urdd_format::urdf::{Capsule, Cuboid, Cylinder, Geometry, Sphere};
 use urdd_geometry::primitives;
-use urdd_validate::solids::primitive::*;
+use urdd_validate::solids::expected::*;
 
 fn at_origin(geometry: Geometry) -> Primitive {
     Primitive::new(&geometry, Matrix3::identity(), [0.0; 3]).expect("no mesh")

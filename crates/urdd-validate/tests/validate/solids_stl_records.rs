@@ -3,19 +3,19 @@
 use urdd_geometry::primitives::sphere;
 use urdd_geometry::read::Part;
 use urdd_geometry::write::stl;
-use urdd_validate::solids::stl_records::*;
+use urdd_validate::solids::file::*;
 
 #[test]
 fn normals_are_those_of_the_corners_or_zero() {
     let sound = stl(&[Part::from(sphere(0.3))]).expect("a mesh");
-    assert_eq!(fault(&sound), None);
+    assert_eq!(stl_fault(&sound), None);
     let mut zero = sound.clone();
-    zero[HEADER..HEADER + 12].fill(0);
-    assert_eq!(fault(&zero), None);
+    zero[STL_HEADER..STL_HEADER + 12].fill(0);
+    assert_eq!(stl_fault(&zero), None);
     let mut turned = sound.clone();
-    turned[HEADER + 3 * RECORD + 3] ^= 0x80;
-    assert!(fault(&turned).is_some_and(|told| told.contains("triangle 3")));
+    turned[STL_HEADER + 3 * STL_RECORD + 3] ^= 0x80;
+    assert!(stl_fault(&turned).is_some_and(|told| told.contains("triangle 3")));
     let mut spare = sound;
-    spare[HEADER + 49] = 1;
-    assert!(fault(&spare).is_some());
+    spare[STL_HEADER + 49] = 1;
+    assert!(stl_fault(&spare).is_some());
 }

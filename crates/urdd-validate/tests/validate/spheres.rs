@@ -10,15 +10,12 @@ use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_geometry::Mesh;
 use urdd_validate::code::Code::{self, *};
-use urdd_validate::reference::budget::Budget;
-use urdd_validate::reference::distances::poses::Poses;
-use urdd_validate::reference::spheres::budget;
-use urdd_validate::reference::spheres::cells::uncovered;
+use urdd_validate::reference::samples::{Budget, Poses};
+use urdd_validate::reference::spheres::cells::{Polyhedron, uncovered};
 use urdd_validate::reference::spheres::contacts::contacts;
-use urdd_validate::reference::spheres::fit::{self, standoff};
-use urdd_validate::reference::spheres::link_pieces::{Ball, LinkPieces};
-use urdd_validate::reference::spheres::polyhedron::Polyhedron;
-use urdd_validate::reference::spheres::solid::{Solid, to_triangle};
+use urdd_validate::reference::spheres::fit::{
+    self, Ball, LinkPieces, Solid, standoff, to_triangle,
+};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 use urdd_validate::skip;
@@ -171,7 +168,8 @@ fn a_box_is_covered_where_all_its_points_are() {
             });
         }
         let tolerance = 1e-6;
-        let found = uncovered(&solid, &balls, tolerance, &budget(false)).expect("little work");
+        let found =
+            uncovered(&solid, &balls, tolerance, &Budget::of_spheres(false)).expect("little work");
         let lowest = |point: &Vector3<f64>| {
             balls.iter().map(|ball| ball.height(point)).fold(f64::INFINITY, f64::min)
         };
@@ -200,11 +198,13 @@ fn centres_that_are_nearly_one_are_no_fault() {
         let balls = [0.0, apart].map(|x| Ball { centre: Vector3::new(x, 0.0, 0.0), radius });
         for radii in [[1.0, 1.0], [1.0, 0.5], [0.5, 1.0], [1.0, 1.0 - 1e-12]] {
             let of = [0, 1].map(|k| Ball { radius: radius * radii[k], ..balls[k] });
-            let found = uncovered(&solid, &of, 1e-7, &budget(false)).expect("little work");
+            let found =
+                uncovered(&solid, &of, 1e-7, &Budget::of_spheres(false)).expect("little work");
             assert!(found.is_none(), "{apart} {radii:?}");
         }
         let small = balls.map(|ball| Ball { radius: 0.99 * ball.radius, ..ball });
-        let found = uncovered(&solid, &small, 1e-7, &budget(false)).expect("little work");
+        let found =
+            uncovered(&solid, &small, 1e-7, &Budget::of_spheres(false)).expect("little work");
         assert!(found.is_some_and(|found| (found.distance - 0.01 * radius).abs() < 1e-7));
     }
 }
@@ -313,7 +313,7 @@ fn contacts_are_the_same_for_any_threads() {
     let poses = Poses::new(&urdd).expect("poses");
     let found = [1, 2].map(|threads| {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        let of = || contacts(&module, &poses, 2e-9, |_, _| true, &budget(false));
+        let of = || contacts(&module, &poses, 2e-9, |_, _| true, &Budget::of_spheres(false));
         let levels = pool.install(of).expect("little work");
         let pairs = |pairs: &[_]| format!("{pairs:?}");
         levels.iter().map(|level| (pairs(&level.pairs), level.touches.clone())).collect::<Vec<_>>()

@@ -53,7 +53,7 @@ fn a_forgotten_need_is_caught() {
 #[test]
 fn every_rule_takes_what_it_needs() {
     let empty = testkit::temporary::folder();
-    let context = Context::new(Urdd::read(empty.path()).unwrap(), None);
+    let context = Context::new(Urdd::read(empty.path()).unwrap(), None, &Settings::default());
     let mut passed = Vec::new();
     for rule in rules::all() {
         // These read `urdf_module` only in legacy URDDs.

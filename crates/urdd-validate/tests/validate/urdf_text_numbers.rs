@@ -1,6 +1,6 @@
 //! Numbers as URDF writes them.
 
-use urdd_validate::urdf_text::xml::numbers as read;
+use urdd_validate::urdf_text::numbers as read;
 
 #[test]
 fn reads_what_readers_of_urdf_read() {

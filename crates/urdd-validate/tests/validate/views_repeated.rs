@@ -1,6 +1,6 @@
 //! Names that occur more than once.
 
-use urdd_validate::views::lists::repeated;
+use urdd_validate::rules::urdf::tree::repeated;
 
 #[test]
 fn case_makes_another_name() {

@@ -7,12 +7,9 @@ use std::ops::Range;
 use nalgebra::{Isometry3, Vector3};
 use rayon::prelude::*;
 
-use super::budget;
-use super::link_pieces::{Ball, balls};
-use crate::reference::budget::Budget;
-use crate::reference::distances::poses::Poses;
-use crate::reference::learned::counts::COMPARISON;
-use crate::reference::learned::pairs::not_skipped;
+use super::fit::{Ball, balls};
+use crate::reference::learned::{COMPARISON, not_skipped};
+use crate::reference::samples::{Budget, Poses};
 use crate::skip;
 use crate::tolerance::{POSITION_OF_REACH, reach};
 use urdd_document::urdd::Urdd;
@@ -227,7 +224,7 @@ pub fn of_urdd(urdd: &Urdd, deep: bool) -> Result<Vec<LevelFound>, SkipReason> {
         asked.contains(&links) && !ignored.get(level).is_some_and(|of| of.contains(&links))
     };
     let tolerance = POSITION_OF_REACH * 2.0 * reach(robot, tree);
-    contacts(module, &poses, tolerance, is_checked, &budget(deep))
+    contacts(module, &poses, tolerance, is_checked, &Budget::of_spheres(deep))
 }
 
 /// The contacts of all levels. `is_checked` says of a level and a pair of links whether a check asks it; `tolerance` is that

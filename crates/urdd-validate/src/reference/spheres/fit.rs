@@ -1,13 +1,168 @@
-//! How far the spheres of a link are from its pieces: SPEC 8.9.5.
+//! The spheres of a link and its convex pieces, and how far the ones are from the others (SPEC 8.9.5).
 
 use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use super::link_pieces::{Ball, LinkPieces};
-use super::solid::normal;
-use crate::reference::budget::Budget;
+use crate::reference::samples::Budget;
+use crate::solids::Solids;
 use urdd_findings::skip::SkipReason;
+use urdd_format::link_shapes_spheres::{LinkSphere, SphereLevel};
+use urdd_format::registry::ModuleKind;
+use urdd_geometry::Mesh;
+use urdd_geometry::hull::ConvexHull;
+use urdd_geometry::surface::distinct;
+
+/// A sphere, m.
+#[derive(Debug, Clone, Copy)]
+pub struct Ball {
+    pub centre: Vector3<f64>,
+    pub radius: f64,
+}
+
+impl Ball {
+    /// How far outside a point is; negative inside.
+    pub fn height(&self, point: &Vector3<f64>) -> f64 {
+        (point - self.centre).norm() - self.radius
+    }
+}
+
+impl From<&LinkSphere> for Ball {
+    fn from(sphere: &LinkSphere) -> Self {
+        Ball { centre: sphere.offset_xyz.into(), radius: sphere.radius }
+    }
+}
+
+/// The spheres of a link in a level.
+pub fn balls(level: &SphereLevel, link: usize) -> Vec<Ball> {
+    let spheres = level.spheres.get(link).map_or(&[][..], Vec::as_slice);
+    spheres.iter().map(Ball::from).collect()
+}
+
+/// The sound pieces of a link.
+pub struct LinkPieces<'a> {
+    pub meshes: Vec<&'a Mesh>,
+    pub solids: Vec<Solid>,
+    /// The diagonal of the box around all vertices (SPEC 8.9.5), m.
+    pub diagonal: f64,
+}
+
+impl<'a> LinkPieces<'a> {
+    /// Of a link with this many pieces; `None` without pieces, or if one has no hull, which other rules report.
+    pub fn new(solids: &'a Solids, link: usize, count: usize) -> Option<Self> {
+        let kind = ModuleKind::ConvexDecompositionMeshes;
+        let meshes = (0..count).map(|piece| solids.sound(kind, link, piece));
+        Self::of(meshes.collect::<Option<_>>()?)
+    }
+
+    /// The same, of their meshes.
+    pub fn of(meshes: Vec<&'a Mesh>) -> Option<Self> {
+        let solids: Vec<Solid> = meshes.iter().copied().map(Solid::new).collect::<Option<_>>()?;
+        let vertices = || solids.iter().flat_map(|solid| &solid.vertices);
+        let first = *vertices().next()?;
+        let low = vertices().fold(first, |low, vertex| low.inf(vertex));
+        let high = vertices().fold(first, |high, vertex| high.sup(vertex));
+        Some(LinkPieces { meshes, solids, diagonal: (high - low).norm() })
+    }
+}
+
+/// A triangle and its plane.
+#[derive(Debug, Clone)]
+struct Face {
+    corners: [Vector3<f64>; 3],
+    /// Outward, of unit length.
+    normal: Vector3<f64>,
+    offset: f64,
+}
+
+/// The hull of a piece's vertices.
+#[derive(Debug, Clone)]
+pub struct Solid {
+    faces: Vec<Face>,
+    /// The vertices of the piece.
+    pub vertices: Vec<Vector3<f64>>,
+    /// The middle of the box around the vertices, and the distance of the farthest of them from it, m.
+    pub centre: Vector3<f64>,
+    pub radius: f64,
+    is_flat: bool,
+}
+
+impl Solid {
+    /// For a mesh; `None` if its vertices have no hull.
+    pub fn new(mesh: &Mesh) -> Option<Self> {
+        let vertices = distinct(mesh);
+        let hull = ConvexHull::new(&vertices).ok()?;
+        let of_hull = hull.mesh();
+        let faces = of_hull.triangles.iter().filter_map(|triangle| {
+            let corners = of_hull.corners(*triangle).map(Vector3::from);
+            let normal = normal(&corners)?;
+            Some(Face { corners, normal, offset: normal.dot(&corners[0]) })
+        });
+        let faces: Vec<Face> = faces.collect();
+        let vertices: Vec<Vector3<f64>> = vertices.into_iter().map(Vector3::from).collect();
+        let first = *vertices.first()?;
+        let low = vertices.iter().fold(first, |low, vertex| low.inf(vertex));
+        let high = vertices.iter().fold(first, |high, vertex| high.sup(vertex));
+        let centre = (low + high) / 2.0;
+        let radius = vertices.iter().map(|vertex| (vertex - centre).norm()).fold(0.0, f64::max);
+        Some(Solid { faces, vertices, centre, radius, is_flat: hull.is_flat() })
+    }
+
+    /// The corners of its triangles.
+    pub fn triangles(&self) -> impl Iterator<Item = [Vector3<f64>; 3]> {
+        self.faces.iter().map(|face| face.corners)
+    }
+
+    /// The distance of a point, 0 inside, where it is less than `limit`; otherwise `limit` or more. Only faces that the point
+    /// is before can be nearest, and no point of a face is nearer than its plane.
+    pub fn distance(&self, point: &Vector3<f64>, limit: f64) -> f64 {
+        if (point - self.centre).norm() - self.radius >= limit {
+            return limit;
+        }
+        let height = |face: &Face| face.normal.dot(point) - face.offset;
+        let highest = self.faces.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
+        if highest >= limit {
+            return limit;
+        }
+        if highest <= 0.0 && !self.is_flat {
+            return 0.0;
+        }
+        let mut nearest = limit;
+        for face in &self.faces {
+            let height = height(face);
+            if self.is_flat || (height > 0.0 && height < nearest) {
+                nearest = nearest.min(to_triangle(point, &face.corners));
+            }
+        }
+        nearest
+    }
+}
+
+/// The unit normal of a triangle; `None` without an area.
+pub fn normal([a, b, c]: &[Vector3<f64>; 3]) -> Option<Vector3<f64>> {
+    (b - a).cross(&(c - a)).try_normalize(0.0)
+}
+
+/// The distance of a point from a triangle.
+pub fn to_triangle(point: &Vector3<f64>, corners: &[Vector3<f64>; 3]) -> f64 {
+    let [a, b, c] = corners;
+    let edges = [(a, b), (b, c), (c, a)];
+    if let Some(normal) = normal(corners) {
+        let is_inside = |(from, to): &(&Vector3<f64>, &Vector3<f64>)| {
+            normal.dot(&(*to - *from).cross(&(point - *from))) >= 0.0
+        };
+        if edges.iter().all(is_inside) {
+            return normal.dot(&(point - a)).abs();
+        }
+    }
+    let to_edge = |(from, to): (&Vector3<f64>, &Vector3<f64>)| {
+        let way = to - from;
+        let along = (point - from).dot(&way) / way.norm_squared();
+        let along = if along > 0.0 { along.min(1.0) } else { 0.0 };
+        (point - from - way * along).norm()
+    };
+    edges.into_iter().map(to_edge).fold(f64::INFINITY, f64::min)
+}
 
 /// Number of points on a sphere.
 const POINTS: u32 = 64;
@@ -56,7 +211,7 @@ pub fn standoff(
     budget: &Budget,
 ) -> Result<Standoff, SkipReason> {
     let directions = directions();
-    let triangles: usize = pieces.solids.iter().map(|solid| solid.num_triangles()).sum();
+    let triangles: usize = pieces.solids.iter().map(|solid| solid.faces.len()).sum();
     let (mut max, mut sum, mut weights) = (0.0_f64, 0.0, 0.0);
     for (place, ball) in balls.iter().enumerate() {
         let reaches = |(other, of): (usize, &Ball)| {
@@ -84,12 +239,6 @@ pub fn standoff(
 /// The corners of a triangle, and its unit normal.
 type Triangle = ([Vector3<f64>; 3], Vector3<f64>);
 
-/// The inner side of a plane.
-struct Beneath {
-    normal: Vector3<f64>,
-    offset: f64,
-}
-
 /// The surface outside of the spheres, for the spheres of several levels.
 ///
 /// # Errors
@@ -106,14 +255,10 @@ pub fn uncovered(
         triangles.filter_map(|corners| Some((corners, normal(&corners)?)))
     });
     let triangles: Vec<Vec<Triangle>> = triangles.map(Iterator::collect).collect();
-    let planes = triangles.iter().map(|of| {
-        let beneath = |(corners, normal): &Triangle| Beneath {
-            normal: *normal,
-            offset: normal.dot(&corners[0]) - beyond,
-        };
-        of.iter().map(beneath).collect()
-    });
-    let planes: Vec<Vec<Beneath>> = planes.collect();
+    // Of each plane, the normal, and how far along it what is beneath reaches.
+    let beneath = |(corners, normal): &Triangle| (*normal, normal.dot(&corners[0]) - beyond);
+    let planes = triangles.iter().map(|of| of.iter().map(beneath).collect());
+    let planes: Vec<Vec<(Vector3<f64>, f64)>> = planes.collect();
     let mut found = vec![Uncovered { fraction: 0.0, max: 0.0 }; levels.len()];
     let mut last = vec![0; levels.len()];
     let mut all = 0.0;
@@ -126,11 +271,12 @@ pub fn uncovered(
             budget.spend((n * n) as u64 * (10 + 10 * planes.len() as u64))?;
             let mut work = 0;
             for point in centroids(corners, n as u32) {
-                let mut inside = |(piece, planes): (usize, &Vec<Beneath>)| {
+                let mut inside = |(piece, planes): (usize, &Vec<(Vector3<f64>, f64)>)| {
                     let solid = &pieces.solids[piece];
                     let far = (point - solid.centre).norm() > solid.radius;
                     piece != own && !far && !planes.is_empty() && {
-                        let above = |of: &Beneath| of.normal.dot(&point) >= of.offset;
+                        let above =
+                            |(normal, offset): &(Vector3<f64>, f64)| normal.dot(&point) >= *offset;
                         let first = planes.iter().position(above);
                         work += 2 * first.unwrap_or(planes.len());
                         first.is_none()

@@ -1,10 +1,11 @@
-//! Compares a document with the URDF.
+//! Compares `urdf_module` with the URDF: what a legacy module writes for it, and where a document differs.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 
 use crate::tolerance::{number_tolerance, numbers_agree};
+use urdd_format::urdf::{JointType, UrdfModule};
 
 /// A value that differs from the URDF.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +27,7 @@ pub struct Difference {
 /// Every difference between the URDF's data and a document. Links and joints are compared by name, so that a missing
 /// one is a single difference.
 pub fn differences(expected: &Value, actual: &Value) -> Vec<Difference> {
-    let mut comparison = Comparison::default();
+    let mut comparison = Comparison(Vec::new());
     if let Some(keys) = expected.as_object() {
         for (key, expected) in keys {
             let actual = actual.get(key).unwrap_or(&Value::Null);
@@ -39,13 +40,10 @@ pub fn differences(expected: &Value, actual: &Value) -> Vec<Difference> {
             }
         }
     }
-    comparison.found
+    comparison.0
 }
 
-#[derive(Default)]
-struct Comparison {
-    found: Vec<Difference>,
-}
+struct Comparison(Vec<Difference>);
 
 impl Difference {
     fn new(pointer: &str, source: &str, expected: &Value, actual: &Value) -> Self {
@@ -68,7 +66,7 @@ impl Difference {
 
 impl Comparison {
     fn report(&mut self, pointer: &str, source: &str, expected: &Value, actual: &Value) {
-        self.found.push(Difference::new(pointer, source, expected, actual));
+        self.0.push(Difference::new(pointer, source, expected, actual));
     }
 
     fn value(&mut self, pointer: &str, source: &str, expected: &Value, actual: &Value) {
@@ -87,9 +85,9 @@ impl Comparison {
             }
             (Value::Array(wanted), Value::Array(there)) => {
                 if wanted.len() != there.len() {
-                    let how = format!("{} there, {} here", wanted.len(), there.len());
                     let lengths = [wanted.len(), there.len()];
-                    self.found.push(Difference::of_lists(pointer, source, lengths, how));
+                    let how = format!("{} there, {} here", lengths[0], lengths[1]);
+                    self.0.push(Difference::of_lists(pointer, source, lengths, how));
                     return;
                 }
                 for (index, (expected, actual)) in wanted.iter().zip(there).enumerate() {
@@ -101,7 +99,7 @@ impl Comparison {
             (Value::Number(wanted), Value::Number(there)) => {
                 let (Some(a), Some(b)) = (wanted.as_f64(), there.as_f64()) else { return };
                 if !numbers_agree(a, b) {
-                    self.found.push(Difference {
+                    self.0.push(Difference {
                         tolerance: Some(number_tolerance(a, b)),
                         ..Difference::new(pointer, source, expected, actual)
                     });
@@ -135,11 +133,10 @@ impl Comparison {
             return;
         }
         let how = how_names_differ(&wanted, &there);
-        self.found.push(Difference::of_lists(list, list, [wanted.len(), there.len()], how));
-        let mut place: HashMap<&str, usize> = HashMap::new();
-        for (index, name) in there.iter().enumerate() {
-            place.entry(name).or_insert(index);
-        }
+        self.0.push(Difference::of_lists(list, list, [wanted.len(), there.len()], how));
+        // Of several of one name, the first.
+        let place = there.iter().enumerate().rev().map(|(index, name)| (name.as_str(), index));
+        let place: HashMap<&str, usize> = place.collect();
         for (index, (name, expected)) in wanted.iter().zip(expected).enumerate() {
             if let Some(&at) = place.get(name.as_str()) {
                 let (pointer, source) = (format!("{list}/{at}"), format!("{list}/{index}"));
@@ -151,9 +148,8 @@ impl Comparison {
 
 fn how_names_differ(wanted: &[String], there: &[String]) -> String {
     let only_in = |a: &[String], b: &[String]| {
-        let b: std::collections::HashSet<&String> = b.iter().collect();
-        let only: Vec<String> = a.iter().filter(|name| !b.contains(name)).cloned().collect();
-        only
+        let b: HashSet<&String> = b.iter().collect();
+        a.iter().filter(|name| !b.contains(name)).cloned().collect::<Vec<String>>()
     };
     let (missing, extra) = (only_in(wanted, there), only_in(there, wanted));
     let mut words = Vec::new();
@@ -189,4 +185,124 @@ pub fn first_names<S: AsRef<str>>(names: &[S]) -> String {
 /// A text with line endings as XML readers normalise them: copying files may have changed them.
 fn unix_lines(text: &str) -> String {
     text.replace("\r\n", "\n")
+}
+
+/// What legacy modules write for a value of the URDF.
+enum Form {
+    /// The value, or null.
+    Same,
+    /// The value, or this number.
+    Number(f64),
+    /// The value, or this vector.
+    Vector([f64; 3]),
+    /// The value, or an empty text.
+    Text,
+    /// An object of these keys, even if the URDF has none.
+    Object(Keys),
+    /// An object of these keys, or null.
+    Optional(Keys),
+    /// A list of objects of these keys.
+    List(Keys),
+}
+
+type Keys = &'static [(&'static str, Form)];
+
+use Form::{List, Number, Object, Optional, Same, Text, Vector};
+
+const ROBOT: Keys = &[
+    ("name", Same),
+    ("links", List(LINK)),
+    ("joints", List(JOINT)),
+    ("materials", List(MATERIAL)),
+];
+const LINK: Keys = &[
+    ("name", Same),
+    ("inertial", Object(INERTIAL)),
+    ("visual", List(VISUAL)),
+    ("collision", List(COLLISION)),
+];
+const INERTIAL: Keys = &[
+    ("origin", Object(ORIGIN)),
+    ("mass", Object(&[("value", Number(0.0))])),
+    ("inertia", Object(INERTIA)),
+];
+const INERTIA: Keys = &[
+    ("ixx", Number(0.0)),
+    ("ixy", Number(0.0)),
+    ("ixz", Number(0.0)),
+    ("iyy", Number(0.0)),
+    ("iyz", Number(0.0)),
+    ("izz", Number(0.0)),
+];
+const ORIGIN: Keys = &[("xyz", Vector([0.0; 3])), ("rpy", Vector([0.0; 3]))];
+const VISUAL: Keys = &[
+    ("name", Same),
+    ("origin", Object(ORIGIN)),
+    ("geometry", Same),
+    ("material", Optional(MATERIAL)),
+];
+const COLLISION: Keys = &[("name", Same), ("origin", Object(ORIGIN)), ("geometry", Same)];
+const MATERIAL: Keys = &[("name", Text), ("color", Same), ("texture", Same)];
+const JOINT: Keys = &[
+    ("name", Same),
+    ("joint_type", Same),
+    ("origin", Object(ORIGIN)),
+    ("parent", Same),
+    ("child", Same),
+    ("axis", Object(&[("xyz", Vector([1.0, 0.0, 0.0]))])),
+    ("limit", Object(LIMIT)),
+    ("dynamics", Optional(DYNAMICS)),
+    ("mimic", Same),
+    ("safety_controller", Optional(SAFETY_CONTROLLER)),
+];
+const LIMIT: Keys = &[
+    ("lower", Number(0.0)),
+    ("upper", Number(0.0)),
+    ("effort", Number(0.0)),
+    ("velocity", Number(0.0)),
+];
+const DYNAMICS: Keys = &[("damping", Number(0.0)), ("friction", Number(0.0))];
+const SAFETY_CONTROLLER: Keys = &[
+    ("soft_lower_limit", Number(0.0)),
+    ("soft_upper_limit", Number(0.0)),
+    ("k_position", Number(0.0)),
+    ("k_velocity", Number(0.0)),
+];
+
+/// The document that the converter of legacy URDDs would have written, apart from what it wrote inconsistently. `None`
+/// if it could not write it (an element without a shape).
+pub fn as_legacy(robot: &UrdfModule) -> Option<Value> {
+    for link in &robot.links {
+        let visual = link.visual.iter().map(|visual| &visual.geometry);
+        let collision = link.collision.iter().map(|collision| &collision.geometry);
+        if visual.chain(collision).any(Option::is_none) {
+            return None;
+        }
+    }
+    let mut document = object(&serde_json::to_value(robot).ok()?, ROBOT);
+    let joints = document.get_mut("joints")?.as_array_mut()?;
+    for (joint, value) in robot.joints.iter().zip(joints) {
+        // An axis that is neither present nor used was written as 1 0 0 by some versions, and as zeros by others.
+        if joint.axis.is_none() && joint.joint_type == JointType::Fixed {
+            value.as_object_mut()?.shift_remove("axis");
+        }
+    }
+    Some(document)
+}
+
+fn object(value: &Value, keys: Keys) -> Value {
+    let member = |(key, form): &(&str, Form)| (String::from(*key), write(&value[*key], form));
+    Value::Object(keys.iter().map(member).collect::<Map<_, _>>())
+}
+
+fn write(value: &Value, form: &Form) -> Value {
+    match (form, value) {
+        (Object(keys), _) => object(value, keys),
+        (List(keys), Value::Array(list)) => list.iter().map(|one| object(one, keys)).collect(),
+        (Number(number), Value::Null) => json!(number),
+        (Vector(vector), Value::Null) => json!(vector),
+        (Text, Value::Null) => json!(""),
+        (Optional(keys), Value::Object(_)) => object(value, keys),
+        _ => value.clone(),
+    }
 }

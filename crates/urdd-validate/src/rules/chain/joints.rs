@@ -213,9 +213,7 @@ fn quaternion_not_canonical(context: &Context, findings: &mut Findings) -> Optio
         let quaternion = joint.origin.quaternion_wxyz;
         let pointer = format!("/joints_in_chain/{index}/origin/quaternion_wxyz");
         let is_right = || !is_other_rotation(context, index, quaternion);
-        if let Some(finding) = not_canonical(Kind::Chain, pointer, quaternion, is_right) {
-            findings.report(finding);
-        }
+        report_not_canonical(Kind::Chain, pointer, quaternion, is_right, findings);
     }
     Some(())
 }
@@ -229,24 +227,24 @@ fn is_other_rotation(context: &Context, index: usize, quaternion: [f64; 4]) -> b
     })
 }
 
-/// The finding of a quaternion that is not of length 1, or the negative of the one to write, if that `is_right`.
-pub(in crate::rules) fn not_canonical(
+/// Reports a quaternion that is not of length 1, or the negative of the one to write, if that `is_right`.
+pub fn report_not_canonical(
     kind: Kind,
     pointer: String,
     quaternion: [f64; 4],
     is_right: impl FnOnce() -> bool,
-) -> Option<Finding> {
+    findings: &mut Findings,
+) {
     let at = |message: &str| finding_in(kind, pointer, message).actual(format!("{quaternion:?}"));
     let norm = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
     if (norm - 1.0).abs() > UNIT_NORM {
         let message = format!("this quaternion has length {norm:?}; divide it by that");
-        return Some(at(&message).expected("length 1").tolerance(UNIT_NORM));
-    }
-    (is_negative(&quaternion) && is_right()).then(|| {
+        at(&message).expected("length 1").tolerance(UNIT_NORM).report(findings);
+    } else if is_negative(&quaternion) && is_right() {
         let message = "this is the negative of the quaternion to write; negate all four numbers";
         let negated = quaternion.map(|x| if x == 0.0 { 0.0 } else { -x });
-        at(message).expected(format!("{negated:?}"))
-    })
+        at(message).expected(format!("{negated:?}")).report(findings);
+    }
 }
 
 /// Whether the first non-zero number is negative.

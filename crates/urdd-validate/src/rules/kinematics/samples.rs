@@ -106,10 +106,7 @@ fn sample_list_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
 }
 
 fn describe(kind: ConfigurationKind, number: Option<SampleIdx>) -> String {
-    match number {
-        Some(number) => format!("kind {kind}, sample_idx {number}"),
-        None => format!("kind {kind}, sample_idx null"),
-    }
+    format!("kind {kind}, sample_idx {}", or_null(number.map(|number| number.0)))
 }
 
 fn sample_configuration_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
@@ -140,13 +137,12 @@ fn sample_configuration_wrong(context: &Context, findings: &mut Findings) -> Opt
                 continue;
             }
             let bounds = bounds.bounds.get(dof).copied().unwrap_or_default();
-            let off = off_by_bounds(bounds, [*expected, *found], || {
+            report_off_by_bounds(bounds, [*expected, *found], findings, || {
                 let pointer = format!("/samples/{place}/configuration/{dof}");
                 let message =
                     format!("in the configuration {} this DOF has another value", sample.kind);
                 finding_in(Kind::KinematicsSamples, pointer, message)
             });
-            off.into_iter().for_each(|finding| findings.report(finding));
         }
         for vector in vectors {
             let (expected, found) = (pick(&expected, vector)?, pick(found, vector)?);
@@ -167,7 +163,7 @@ fn sample_configuration_wrong(context: &Context, findings: &mut Findings) -> Opt
     Some(())
 }
 
-pub(in crate::rules) fn pick(configuration: &[f64], dofs: &[usize; 3]) -> Option<[f64; 3]> {
+pub fn pick(configuration: &[f64], dofs: &[usize; 3]) -> Option<[f64; 3]> {
     let [x, y, z] = dofs.map(|dof| configuration.get(dof).copied());
     Some([x?, y?, z?])
 }
@@ -180,7 +176,7 @@ fn same_rotation(expected: [f64; 3], found: [f64; 3]) -> bool {
 }
 
 /// Whether two rotation vectors, whatever their lengths, are the same rotation.
-pub(in crate::rules) fn turn_alike(a: [f64; 3], b: [f64; 3]) -> bool {
+pub fn turn_alike(a: [f64; 3], b: [f64; 3]) -> bool {
     let matrix = |v| *from_rotation_vector(v).to_rotation_matrix().matrix();
     rotation_distance(&matrix(a), &matrix(b)) <= ROTATION
 }

@@ -1,4 +1,4 @@
-use crate::reference::learned::network;
+use crate::reference::learned;
 use crate::rules::prelude::*;
 use urdd_format::dof::Quantity;
 use urdd_format::index::{DofIdx, LinkIdx};
@@ -187,7 +187,7 @@ fn wrong_shape(context: &Context, findings: &mut Findings) -> Option<()> {
         }
         right
     };
-    let mut width: usize = model.inputs.iter().map(network::width).sum();
+    let mut width: usize = model.inputs.iter().map(learned::width).sum();
     if !judge("/inputs".to_owned(), "inputs", width, width) {
         return Some(());
     }

@@ -86,7 +86,7 @@ declare_rule! {
 }
 
 /// The configurations of the module, each with its place.
-pub(super) fn configurations(loops: &LoopsModule) -> impl Iterator<Item = (String, &[f64])> {
+fn configurations(loops: &LoopsModule) -> impl Iterator<Item = (String, &[f64])> {
     let reference = ("/reference_configuration".to_owned(), &*loops.reference_configuration);
     let samples = loops.closed_samples.iter().enumerate().filter_map(|(place, sample)| {
         let configuration = sample.configuration.as_deref()?;
@@ -139,14 +139,13 @@ fn closed_sample_wrong(context: &Context, findings: &mut Findings) -> Option<()>
         for idx in independent.iter().copied().filter(|idx| !same.contains(idx)) {
             let (expected, found) = (*sampled.get(idx)?, *found.get(idx)?);
             let name = &dof.dofs.get(idx)?.name;
-            let off = off_by_bounds(*bounds.get(idx)?, [expected, found], || {
+            report_off_by_bounds(*bounds.get(idx)?, [expected, found], findings, || {
                 let pointer = format!("/closed_samples/{place}/configuration/{idx}");
                 let message = format!(
                     "the independent DOF `{name}` is not where sampled configuration {place} has it"
                 );
                 finding_in(Kind::Loops, pointer, message)
             });
-            off.into_iter().for_each(|finding| findings.report(finding));
         }
     }
     Some(())
@@ -176,13 +175,10 @@ fn closed_configuration_out_of_bounds(context: &Context, findings: &mut Findings
         let limited = bounds.bounds.iter().zip(&bounds.dof_limited);
         let limited = configuration.iter().zip(limited).enumerate();
         for (idx, (q, (bounds, _))) in limited.filter(|(_, (_, (_, limited)))| **limited) {
-            let finding = || {
+            report_beyond_bounds(*bounds, *q, findings, || {
                 let pointer = format!("{pointer}/{idx}");
                 finding_in(Kind::Loops, pointer, "a limited DOF cannot be there")
-            };
-            if let Some(finding) = beyond_bounds(*bounds, *q, finding) {
-                findings.report(finding);
-            }
+            });
         }
     }
     Some(())
@@ -216,7 +212,8 @@ fn loop_open(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         for (place, one) in loops.loops.iter().enumerate() {
             let gap = Gap::of(one, &poses, reach)?;
-            if gap.is_closed() {
+            let [position, rotation] = gap.most;
+            if gap.position <= position && gap.rotation <= rotation {
                 continue;
             }
             let message = format!(
@@ -225,7 +222,6 @@ fn loop_open(context: &Context, findings: &mut Findings) -> Option<()> {
                 number(gap.position, 4),
                 number(gap.rotation, 4)
             );
-            let [position, rotation] = gap.most;
             let (off, most, unit) = match gap.position <= position {
                 true => (gap.rotation, rotation, "rad"),
                 false => (gap.position, position, "m"),

@@ -1,6 +1,6 @@
-use crate::rules::chain::joints::not_canonical;
+use crate::rules::chain::joints::report_not_canonical;
 use crate::rules::prelude::*;
-use crate::views::lists::repeated;
+use crate::rules::urdf::tree::repeated;
 use urdd_format::index::DofIdx;
 
 declare_rule! {
@@ -112,9 +112,7 @@ fn loop_quaternion_not_canonical(context: &Context, findings: &mut Findings) -> 
         for (key, frame) in [("frame_a", &one.frame_a), ("frame_b", &one.frame_b)] {
             let pointer = format!("/loops/{place}/{key}/quaternion_wxyz");
             let quaternion = frame.quaternion_wxyz;
-            if let Some(finding) = not_canonical(Kind::Loops, pointer, quaternion, || true) {
-                findings.report(finding);
-            }
+            report_not_canonical(Kind::Loops, pointer, quaternion, || true, findings);
         }
     }
     Some(())

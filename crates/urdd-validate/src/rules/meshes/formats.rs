@@ -2,8 +2,7 @@ use std::io::BufReader;
 
 use crate::rules::prelude::*;
 use crate::solids::derived::{DerivedFile, in_words, noun};
-use crate::solids::file::MeshFault;
-use crate::solids::glb_chunks;
+use crate::solids::file::{MeshFault, glb_fault};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_document::mesh_files::MeshFiles;
 use urdd_document::meshes::{Mesh, MeshFormat, Meshes};
@@ -68,7 +67,7 @@ fn glb_not_binary(context: &Context, findings: &mut Findings) -> Option<()> {
         for (_, mesh) in paths.filter(|(_, mesh)| mesh.format == Some(MeshFormat::Glb)) {
             // Other rules report files that cannot be opened.
             let Ok((file, size)) = files.open(meshes.profile, mesh.path) else { continue };
-            if let Ok(Some(fault)) = glb_chunks::fault(BufReader::new(file), size) {
+            if let Ok(Some(fault)) = glb_fault(BufReader::new(file), size) {
                 let message = format!("`{}` is not binary glTF 2.0: {fault}", mesh.path);
                 finding_in(module, &mesh.pointer, message)
                     .values("glTF, version 2, the file's length, and chunks up to its end", fault)
@@ -99,25 +98,20 @@ fn fault(file: &DerivedFile, profile: Profile) -> Option<String> {
         return None;
     }
     match &file.fault {
-        Some(MeshFault::Absent(_)) => return None,
+        Some(MeshFault::Absent(_)) => None,
         Some(MeshFault::TooLarge(size)) => {
-            return Some(format!("it is {size} bytes long; the limit is {MAX_DOCUMENT_BYTES}"));
+            Some(format!("it is {size} bytes long; the limit is {MAX_DOCUMENT_BYTES}"))
         }
-        Some(MeshFault::Broken(why)) => return Some(why.clone()),
-        None => {}
+        Some(MeshFault::Broken(why)) => Some(why.clone()),
+        None => match (file.format, file.content?) {
+            (MeshFormat::Stl, Content::StlBinary)
+            | (MeshFormat::Obj, Content::Obj)
+            | (MeshFormat::Glb, Content::Glb) => None,
+            (MeshFormat::Stl, Content::StlAscii) if profile == Profile::Legacy => None,
+            (_, Content::StlAscii) => Some("it is STL as text; write binary STL".to_owned()),
+            (_, other) => Some(format!("it has the content of a .{} file", other.extension())),
+        },
     }
-    let right = match (file.format, file.content?) {
-        (MeshFormat::Stl, Content::StlBinary)
-        | (MeshFormat::Obj, Content::Obj)
-        | (MeshFormat::Glb, Content::Glb) => true,
-        (MeshFormat::Stl, Content::StlAscii) => profile == Profile::Legacy,
-        _ => false,
-    };
-    (!right).then(|| match file.content {
-        Some(Content::StlAscii) => "it is STL as text; write binary STL".to_owned(),
-        Some(content) => format!("it has the content of a .{} file", content.extension()),
-        None => "it is not a mesh".to_owned(),
-    })
 }
 
 fn expected(format: MeshFormat) -> &'static str {

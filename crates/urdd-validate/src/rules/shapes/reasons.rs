@@ -1,6 +1,7 @@
 use crate::rules::prelude::*;
 use crate::views::tangled::{CONTACT, Tangled, of_pair, sound_pairs};
 use urdd_document::shape_matrices::{Elements, at, reasons, skips};
+use urdd_format::chain::ChainModule;
 use urdd_format::link_shapes_simple_skips::SkipReason;
 
 declare_rule! {
@@ -44,10 +45,7 @@ fn skip_reason_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = Kind::LinkShapesSimpleSkips;
     let document = context.document(kind)?;
     let shapes = context.shapes()?;
-    let joints = context.chain()?.joints_in_chain.iter();
-    let joined: HashSet<(usize, usize)> = joints
-        .map(|joint| ordered(joint.parent_link_idx.get(), joint.child_link_idx.get()))
-        .collect();
+    let joined = joined(context.chain()?);
     let (six, skips, reasons) = (context.statistics()?, skips(document)?, reasons(document)?);
     for (((kind, statistics), skips), rows) in
         ShapeKind::ALL.into_iter().zip(six).zip(skips).zip(reasons)
@@ -101,8 +99,15 @@ fn first_reason(pair: &Pair, adjacent: bool) -> Option<SkipReason> {
     Some(if pair.never()? { SkipReason::Never } else { SkipReason::None })
 }
 
-fn ordered(a: usize, b: usize) -> (usize, usize) {
+/// Two links, the lower first.
+pub fn ordered(a: usize, b: usize) -> (usize, usize) {
     (a.min(b), a.max(b))
+}
+
+/// The pairs of links that a joint connects.
+pub fn joined(chain: &ChainModule) -> HashSet<(usize, usize)> {
+    let joints = chain.joints_in_chain.iter();
+    joints.map(|of| ordered(of.parent_link_idx.get(), of.child_link_idx.get())).collect()
 }
 
 fn default_reason_wrong(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -1,7 +1,7 @@
-use crate::reference::distances::plan;
-use crate::reference::distances::poses::Poses;
-use crate::reference::distances::shape_set::ShapeSet;
+use crate::reference::distances::ShapeSet;
+use crate::reference::samples::{self, Poses};
 use crate::rules::prelude::*;
+use crate::rules::shapes::reasons::{joined, ordered};
 use crate::views::judged::JudgedShapes;
 use crate::views::tangled::{CONTACT, Tangled, of_pair, sound_pairs};
 use urdd_document::shape_matrices::{Elements, at, reasons, skips, skips_pointer};
@@ -125,7 +125,7 @@ fn skips_not_from_edits(context: &Context, findings: &mut Findings) -> Option<()
     let mut last: HashMap<(usize, usize), (usize, bool)> = HashMap::new();
     for (place, edit) in edited.edits.iter().enumerate() {
         if let (Some(a), Some(b)) = (robot.link(&edit.link_a), robot.link(&edit.link_b)) {
-            last.insert((a.min(b), a.max(b)), (place, edit.skip));
+            last.insert(ordered(a, b), (place, edit.skip));
         }
     }
     let simple = reasons(context.document(Kind::LinkShapesSimpleSkips)?)?;
@@ -135,7 +135,7 @@ fn skips_not_from_edits(context: &Context, findings: &mut Findings) -> Option<()
         let mut fold = Fold::new(findings);
         for (i, j, skip) in sound_pairs(rows, Elements::Skips) {
             let Some((a, b)) = shapes.link(kind, i).zip(shapes.link(kind, j)) else { continue };
-            let edit = last.get(&(a.min(b), a.max(b))).copied();
+            let edit = last.get(&ordered(a, b)).copied();
             // SHP006 reports a pair whose two reasons differ.
             let reason = of_pair(simple, i, j).filter(|_| !tangled_simple.pair(i, j));
             let by_reason = reason.map(|reason| {
@@ -217,7 +217,7 @@ fn skipped_pair_moves_apart(context: &Context, findings: &mut Findings) -> Optio
     let statistics = context.statistics().into_iter().flatten().flatten();
     let sampled = statistics.into_iter().find_map(|one| one.num_samples);
     let pairs: usize = skipped.iter().map(|(_, pairs)| pairs.len()).sum();
-    let work = pairs as u64 * plan::HULL;
+    let work = pairs as u64 * samples::HULL;
     let eights = (WORK / (8 * work.max(1))).clamp(1, CONFIGURATIONS / 8);
     let n = u32::try_from(8 * eights).unwrap_or(8);
     let n = sampled.map_or(n, |sampled| n.min(sampled.max(1)));
@@ -231,14 +231,11 @@ fn skipped_pair_moves_apart(context: &Context, findings: &mut Findings) -> Optio
         if pairs.is_empty() {
             continue;
         }
-        let made;
-        let set = match known(kind) {
-            Some(set) => set,
-            None => {
-                made = ShapeSet::new(context, context.solids(), &shapes, kind, false);
-                &made
-            }
+        let made = match known(kind) {
+            Some(_) => None,
+            None => Some(ShapeSet::new(context, context.solids(), &shapes, kind, false)),
         };
+        let Some(set) = known(kind).or(made.as_ref()) else { continue };
         let tolerances = Tolerances::new(context, context.solids(), &shapes, kind);
         let judged = JudgedShapes::new(context, findings, &shapes, kind);
         let by_reason = OtherReasons::new(context, document, &poses, set);
@@ -275,10 +272,10 @@ fn edited(context: &Context, document: &ModuleDocument) -> Option<HashSet<(usize
         return recorded.then(HashSet::new);
     };
     let robot = context.robot()?;
-    let links = module.edits.iter().filter_map(|edit| {
-        let (a, b) = (robot.link(&edit.link_a)?, robot.link(&edit.link_b)?);
-        Some((a.min(b), a.max(b)))
-    });
+    let links = module
+        .edits
+        .iter()
+        .filter_map(|edit| Some(ordered(robot.link(&edit.link_a)?, robot.link(&edit.link_b)?)));
     Some(links.collect())
 }
 
@@ -293,7 +290,7 @@ fn movable_pairs(
     let skipped = sound_pairs(rows, Elements::Skips).filter(|(_, _, skip)| *skip);
     let movable = skipped.filter(|(i, j, _)| {
         let links = shapes.link(kind, *i).zip(shapes.link(kind, *j));
-        links.is_some_and(|(a, b)| !poses.is_rigid(a, b) && !edited.contains(&(a.min(b), a.max(b))))
+        links.is_some_and(|(a, b)| !poses.is_rigid(a, b) && !edited.contains(&ordered(a, b)))
     });
     movable.map(|(i, j, _)| (i, j)).collect()
 }
@@ -314,15 +311,10 @@ impl<'a> OtherReasons<'a> {
             _ => false,
         };
         let chain = context.chain().filter(|_| skipped(SkippedReason::Adjacent));
-        let joints = chain.iter().flat_map(|chain| &chain.joints_in_chain);
-        let adjacent = joints.map(|joint| {
-            let (a, b) = (joint.parent_link_idx.get(), joint.child_link_idx.get());
-            (a.min(b), a.max(b))
-        });
         let motion = poses.default_motion().ok().filter(|_| skipped(SkippedReason::Default));
         OtherReasons {
             set,
-            adjacent: adjacent.collect(),
+            adjacent: chain.map(joined).unwrap_or_default(),
             at_default: motion.map(|motion| set.statistics(&motion).min),
         }
     }
@@ -331,7 +323,7 @@ impl<'a> OtherReasons<'a> {
     fn may_skip(&self, shapes: &Shapes, (i, j): (usize, usize)) -> bool {
         let kind = self.set.kind;
         let links = shapes.link(kind, i).zip(shapes.link(kind, j));
-        let adjacent = links.is_some_and(|(a, b)| self.adjacent.contains(&(a.min(b), a.max(b))));
+        let adjacent = links.is_some_and(|(a, b)| self.adjacent.contains(&ordered(a, b)));
         let places = self.set.place(i).zip(self.set.place(j));
         let distance =
             (self.at_default.as_ref().zip(places)).and_then(|(rows, (a, b))| at(rows, a, b));

@@ -112,7 +112,7 @@ fn fault(link: &Link) -> Option<(String, &'static str)> {
 }
 
 /// The links of a rigid group, with their indices.
-pub(super) fn links_of<'a>(
+fn links_of<'a>(
     robot: &'a Robot,
     group: &'a RigidGroup,
 ) -> impl Iterator<Item = (usize, &'a Link)> + Clone {

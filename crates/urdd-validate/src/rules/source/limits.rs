@@ -1,6 +1,21 @@
+//! What is odd in a source besides masses and inertias: limits, lost meshes, repeated elements.
+
 use crate::rules::prelude::*;
+use urdd_directory::position::LineIndex;
+use urdd_document::schema_check::excerpt;
+use urdd_format::index::Count;
+use urdd_format::report::{Fix, TextEdit};
 
 declare_rule! {
+    /// The lower limit of a joint is above its upper limit.
+    ///
+    /// No position is within the limits. Planners find no configuration, and programs that clamp a
+    /// position to the limits disagree. Where one of the two limits is absent, it is 0.
+    ///
+    /// Swap or correct `lower` and `upper` in the URDF, and write the URDD again.
+    SRC001 "crossed-limits", Warning, clause "6.1.7", since "0.1.0",
+    phase References, needs [SourceRobot], of Robot, check crossed_limits,
+
     /// A revolute or prismatic joint has no limits.
     ///
     /// URDF requires `<limit>` of these types. Without it some readers refuse the file, some take
@@ -36,6 +51,53 @@ declare_rule! {
     /// URDF, and write the URDD again.
     SRC002 "mimic-leaves-its-limits", Warning, clause "6.1.7", since "0.1.0",
     phase References, needs [SourceRobot, Passed(URD008), Passed(URD009), Passed(URD012)], of Robot, check mimic_leaves_limits,
+
+    /// A mesh that the URDF names is not carried.
+    ///
+    /// The file was not found when the URDD was made. The link lacks this part of its geometry: it is
+    /// not shown, and nothing collides with it. Most often a `package://` could not be resolved, or a
+    /// file is missing from the package.
+    ///
+    /// Give the producer the folder of the package, or remove the element from the URDF. Then write the
+    /// URDD again.
+    SRC007 "mesh-not-carried", Warning, clause "6.1.7", since "0.1.0",
+    phase References, needs [
+        Module(Kind::Urdf), Module(Kind::OriginalMeshes), Version1, NotFailed(MSH012), ModuleV1(Kind::OriginalMeshes),
+    ], check mesh_not_carried,
+
+    /// The carried URDF repeats an element that URDF allows once.
+    ///
+    /// A URDD takes the first, as most readers do; others take the last, or refuse the file. So two
+    /// programs may see two robots: another axis, another mass. Two shapes in one `<geometry>` are
+    /// one shape and another that no program sees.
+    ///
+    /// Keep one of them in the URDF; write several shapes as several `<visual>` or `<collision>`
+    /// elements. Then write the URDD again.
+    SRC008 "repeated-element", Warning, clause "6.1.8", since "0.1.0",
+    phase References, needs [CarriedUrdf, Passed(URD011)], of Robot, check repeated_element,
+}
+
+fn crossed_limits(described: &Described, findings: &mut Findings) -> Option<()> {
+    let robot = described.robot()?;
+    for (index, joint) in robot.joints.iter().enumerate() {
+        let limits = joint.position_limits().zip(joint.limit);
+        if let Some(((lower, upper), limit)) = limits
+            && lower > upper
+        {
+            let name = &joint.name;
+            let absent = match (limit.lower, limit.upper) {
+                (None, _) => " (`lower` is absent, which means 0)",
+                (_, None) => " (`upper` is absent, which means 0)",
+                _ => "",
+            };
+            let message =
+                format!("the limits of joint `{name}` are crossed{absent}: no position is allowed");
+            finding_in(described, format!("/joints/{index}/limit"), message)
+                .values("lower <= upper", format!("joint `{name}`: {lower} > {upper}"))
+                .report(findings);
+        }
+    }
+    Some(())
 }
 
 fn no_limits(described: &Described, findings: &mut Findings) -> Option<()> {
@@ -135,4 +197,53 @@ pub fn follow(driver: (f64, f64), multiplier: f64, offset: f64) -> (f64, f64) {
 
 fn interval((lower, upper): (f64, f64)) -> String {
     format!("[{}, {}]", number(lower, 6), number(upper, 6))
+}
+
+fn mesh_not_carried(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let meshes = document!(context, OriginalMeshes)?;
+    let references = meshes.references.iter().enumerate();
+    for (index, reference) in references.filter(|(_, reference)| reference.path.is_none()) {
+        let link = robot.links.get(reference.link_idx.get()).map_or("", |link| &link.name);
+        let filename = excerpt(&reference.filename.as_str().into());
+        let message = format!("a mesh of link `{link}` was not found and is not carried");
+        finding_in(Kind::OriginalMeshes, format!("/references/{index}/path"), message)
+            .values("a file", format!("null for {filename} of link `{link}`"))
+            .report(findings);
+    }
+    Some(())
+}
+
+fn repeated_element(described: &Described, findings: &mut Findings) -> Option<()> {
+    let carried = described.urdf.ok()?;
+    let reading = described.urdf_text()?;
+    let lines = LineIndex::new(&carried.text);
+    for again in &reading.repeated {
+        let (start, end) = (lines.position(again.range.start), lines.position(again.range.end));
+        let message = format!(
+            "a second `<{}>` in a `<{}>`: only the first counts; remove one of them",
+            again.element, again.parent
+        );
+        Finding::in_file(&carried.path, message)
+            .position(Some(start))
+            .related(
+                Finding::in_file(&carried.path, "the first, which counts")
+                    .position(Some(lines.position(again.first))),
+            )
+            // Other readers take the last: which of them the author means is his to say.
+            .fix(Fix {
+                message: format!("remove the second `<{}>`", again.element),
+                is_safe: false,
+                edits: vec![TextEdit {
+                    file: carried.path.clone(),
+                    line: Count(start.line),
+                    column: Count(start.column),
+                    end_line: Count(end.line),
+                    end_column: Count(end.column),
+                    text: String::new(),
+                }],
+            })
+            .report(findings);
+    }
+    Some(())
 }

@@ -1,9 +1,8 @@
-use crate::reference::budget::Budget;
-use crate::reference::spheres::budget;
+use crate::reference::samples::Budget;
 use crate::reference::spheres::cells::{self, Outside};
-use crate::reference::spheres::fit::{Standoff, Uncovered, standoff, uncovered};
-use crate::reference::spheres::link_pieces::{Ball, LinkPieces, balls};
-use crate::reference::spheres::solid::Solid;
+use crate::reference::spheres::fit::{
+    Ball, LinkPieces, Solid, Standoff, Uncovered, balls, standoff, uncovered,
+};
 use crate::rules::prelude::*;
 use urdd_format::link_shapes_spheres::SphereFit;
 
@@ -65,7 +64,7 @@ fn do_not_cover(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         pieces.extend(all.filter(is_judged));
     }
-    let budget = budget(context.deep);
+    let budget = Budget::of_spheres(context.deep);
     let covering = module.levels.iter().enumerate().filter(|(_, level)| level.covers);
     let covering: Vec<_> = covering.collect();
     let judge = |(link, piece): (usize, usize)| {
@@ -158,7 +157,7 @@ fn report(
 ) -> Option<()> {
     let module = document!(context, LinkShapesSpheres)?;
     let links = links(context, findings)?;
-    let budget = budget(context.deep);
+    let budget = Budget::of_spheres(context.deep);
     let of_link = |(link, count): &(usize, usize)| {
         let Some(pieces) = LinkPieces::new(context.solids(), *link, *count) else {
             return Ok(Vec::new());

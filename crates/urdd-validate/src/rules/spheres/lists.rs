@@ -1,6 +1,6 @@
 use crate::rules::prelude::*;
 use urdd_format::link_shapes_spheres::{
-    LinkSphere, SPHERES_MAX_IN_LEVEL, SPHERES_MAX_LEVELS, SPHERES_MAX_SAMPLES, SphereLevel,
+    LinkSphere, SPHERES_MAX_IN_LEVEL, SPHERES_MAX_LEVELS, SPHERES_MAX_SAMPLES,
 };
 
 declare_rule! {
@@ -72,63 +72,49 @@ fn lists_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
     let pieces: Vec<usize> = (0..num_links).map(|link| pieces.count(link)).collect();
     for (place, level) in spheres.levels.iter().enumerate() {
         let lists = [("spheres", level.spheres.len()), ("fits", level.fits.len())];
-        match wrong_lengths(&lists, num_links) {
-            None => lists_of(context, findings, place, level, &pieces),
-            Some(wrong) => {
-                let message = format!(
-                    "a level has one entry for each of the {num_links} links, but {}",
-                    wrong.in_words
-                );
-                let pointer = format!("/levels/{place}{}", wrong.pointer);
+        if let Some(wrong) = wrong_lengths(&lists, num_links) {
+            let message = format!(
+                "a level has one entry for each of the {num_links} links, but {}",
+                wrong.in_words
+            );
+            let pointer = format!("/levels/{place}{}", wrong.pointer);
+            finding_in(Kind::LinkShapesSpheres, pointer, message)
+                .counts(num_links, wrong.length, "entries")
+                .report(findings);
+            continue;
+        }
+        for (link, (spheres, pieces)) in level.spheres.iter().zip(&pieces).enumerate() {
+            let (expected, what) = match (pieces, place) {
+                (0, _) => (0, "without a piece"),
+                (_, 0) => (1, "with a piece"),
+                _ => continue,
+            };
+            if expected != spheres.len() {
+                let label = context.link_label(link);
+                let message =
+                    format!("{label}, a link {what}, has {expected} spheres in this level");
+                let pointer = format!("/levels/{place}/spheres/{link}");
                 finding_in(Kind::LinkShapesSpheres, pointer, message)
-                    .counts(num_links, wrong.length, "entries")
+                    .counts(expected, spheres.len(), "spheres")
+                    .report(findings);
+            }
+        }
+        for (link, (spheres, fit)) in level.spheres.iter().zip(&level.fits).enumerate() {
+            if spheres.is_empty() == fit.is_some() {
+                let message = format!(
+                    "the fit is null exactly for a link without spheres; {} has {}",
+                    context.link_label(link),
+                    spheres.len()
+                );
+                let pointer = format!("/levels/{place}/fits/{link}");
+                let expected = if spheres.is_empty() { "null" } else { "a fit" };
+                finding_in(Kind::LinkShapesSpheres, pointer, message)
+                    .expected(expected)
                     .report(findings);
             }
         }
     }
     Some(())
-}
-
-/// The lists of a level that are as long as they should be.
-fn lists_of(
-    context: &Context,
-    findings: &mut Findings,
-    place: usize,
-    level: &SphereLevel,
-    pieces: &[usize],
-) {
-    for (link, (spheres, pieces)) in level.spheres.iter().zip(pieces).enumerate() {
-        let expected = match (pieces, place) {
-            (0, _) => Some(0),
-            (_, 0) => Some(1),
-            _ => None,
-        };
-        if let Some(expected) = expected.filter(|expected| *expected != spheres.len()) {
-            let what = if expected == 0 { "without a piece" } else { "with a piece" };
-            let message = format!(
-                "{}, a link {what}, has {expected} spheres in this level",
-                context.link_label(link)
-            );
-            let pointer = format!("/levels/{place}/spheres/{link}");
-            finding_in(Kind::LinkShapesSpheres, pointer, message)
-                .counts(expected, spheres.len(), "spheres")
-                .report(findings);
-        }
-    }
-    for (link, (spheres, fit)) in level.spheres.iter().zip(&level.fits).enumerate() {
-        if spheres.is_empty() == fit.is_some() {
-            let message = format!(
-                "the fit is null exactly for a link without spheres; {} has {}",
-                context.link_label(link),
-                spheres.len()
-            );
-            let pointer = format!("/levels/{place}/fits/{link}");
-            let expected = if spheres.is_empty() { "null" } else { "a fit" };
-            finding_in(Kind::LinkShapesSpheres, pointer, message)
-                .expected(expected)
-                .report(findings);
-        }
-    }
 }
 
 fn radius_not_positive(context: &Context, findings: &mut Findings) -> Option<()> {

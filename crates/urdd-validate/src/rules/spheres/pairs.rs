@@ -1,9 +1,7 @@
-use crate::reference::distances::poses::Poses;
-use crate::reference::learned::pairs;
-use crate::reference::learned::pairs::not_skipped;
-use crate::reference::spheres::budget;
+use crate::reference::learned::{self, not_skipped};
+use crate::reference::samples::{Budget, Poses};
 use crate::reference::spheres::contacts::{Often, collisions};
-use crate::rules::learned::counts::counted_again;
+use crate::rules::learned::results::report_counted_again;
 use crate::rules::prelude::*;
 use urdd_format::index::Count;
 use urdd_format::link_shapes_spheres::SphereLevel;
@@ -71,7 +69,7 @@ declare_rule! {
 }
 
 /// The indices of two links.
-pub(super) fn indices(pair: &LinkPair) -> [usize; 2] {
+fn indices(pair: &LinkPair) -> [usize; 2] {
     [pair.link_a_idx.get(), pair.link_b_idx.get()]
 }
 
@@ -213,9 +211,9 @@ fn counts_differ(context: &Context, findings: &mut Findings) -> Option<()> {
     let module = document!(context, LinkShapesSpheres)?;
     let levels = findings.or_skip(context.sphere_contacts())?;
     let poses = findings.or_skip(Poses::new(context))?;
-    let pieces = findings.or_skip(pairs::pieces(context, context.solids()))?;
+    let pieces = findings.or_skip(learned::pieces(context, context.solids()))?;
     let samples = module.num_samples.0;
-    let budget = budget(context.deep);
+    let budget = Budget::of_spheres(context.deep);
     let collides = findings.or_skip(collisions(&pieces, &poses, samples, &budget))?;
     for (place, (level, found)) in module.levels.iter().zip(levels).enumerate() {
         let both = || collides.iter().zip(&found.touches);
@@ -234,8 +232,7 @@ fn counts_differ(context: &Context, findings: &mut Findings) -> Option<()> {
         ] {
             let pointer = format!("/levels/{place}/evaluation/{key}");
             let both = [stated, Count(found)];
-            let counted = counted_again(Kind::LinkShapesSpheres, pointer, both, among);
-            counted.into_iter().for_each(|finding| findings.report(finding));
+            report_counted_again(Kind::LinkShapesSpheres, pointer, both, among, findings);
         }
     }
     Some(())

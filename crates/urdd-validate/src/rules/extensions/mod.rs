@@ -1,8 +1,0 @@
-//! EXT: extension modules.
-
-mod documents;
-use crate::rule::rules;
-
-rules! {
-    documents
-}

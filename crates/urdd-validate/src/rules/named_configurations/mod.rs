@@ -1,8 +1,0 @@
-//! CNF: `named_configurations_module`.
-
-mod configurations;
-use crate::rule::rules;
-
-rules! {
-    configurations
-}
