@@ -8,7 +8,6 @@
 //! Bounding spheres, of each shape and of all shapes of a link, exclude distant pairs. They are computed from the
 //! shapes themselves, so a wrong box or sphere in the URDD cannot hide a collision between hulls or pieces.
 
-mod body;
 mod changed;
 mod query;
 mod swept;
@@ -19,7 +18,7 @@ use std::sync::Arc;
 use super::Robot;
 use super::error::RobotError;
 use super::kept::{Closure, Motion};
-use super::names::{check_link, index};
+use super::robot::{check_link, index};
 use super::shapes::ShapeKind;
 use super::skips::{PairStatistics, Skips};
 use super::workspace::Placed;
@@ -30,9 +29,10 @@ use urdd_geometry::convex::Level;
 use urdd_geometry::convex::across::columns;
 use urdd_kinematics::Travel;
 
-pub(super) use body::{Shape, relative, to_root};
 pub use swept::{Gradient, Overlap, PairGradient};
-pub(super) use swept::{SweptPair, Waiting, in_root, penetration_of, toward, witnesses};
+pub(super) use swept::{
+    Shape, SweptPair, Waiting, in_root, penetration_of, relative, to_root, toward, witnesses,
+};
 
 /// The distance between two shapes, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
@@ -280,7 +280,7 @@ impl Proximity {
             }
         }
         let count = self.motion.links.len();
-        self.spheres = (0..count).map(|link| body::about_link(shapes, link)).collect();
+        self.spheres = (0..count).map(|link| swept::about_link(shapes, link)).collect();
         self
     }
 

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
-use super::body::relative;
-use super::swept::{SweptPair, Waiting};
+use super::swept::{SweptPair, Waiting, relative};
 use super::{Group, PairDistance, Proximity, Rounding};
 use crate::checked::Checked;
 use crate::error::RobotError;

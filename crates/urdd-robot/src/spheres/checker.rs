@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use nalgebra::Isometry3;
 
-use super::answer::{Approximating, Coverage, Covering};
 use super::block::{Scene, with_memory};
-use super::level::SphereLevel;
+use super::level::{Approximating, Coverage, Covering, SphereLevel};
 use super::model::Model;
 use super::obstacles::Obstacles;
 use crate::Robot;

@@ -44,17 +44,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod answer;
 mod block;
-mod check;
 mod checker;
-mod exact;
 mod level;
 mod model;
 mod obstacles;
-mod run;
+mod placed;
 mod tape;
 
-pub use answer::{ApproximateAnswer, Approximating, Coverage, Covering, CoveringAnswer};
 pub use checker::SphereChecker;
-pub use level::{LinkSpheres, Sphere, SphereLevel};
+pub use level::{
+    ApproximateAnswer, Approximating, Coverage, Covering, CoveringAnswer, LinkSpheres, Sphere,
+    SphereLevel,
+};
