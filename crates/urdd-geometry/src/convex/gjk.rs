@@ -14,7 +14,7 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::support::Support;
+use crate::convex::shape::Support;
 use crate::lanes::{LANES, Mask, Num, Pose, Vec3, select, splat};
 
 /// Maximum error of distances, metres: the upper and lower bound differ by no more. For shapes or offsets beyond 10 km

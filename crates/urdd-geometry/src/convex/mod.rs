@@ -10,24 +10,20 @@
 pub mod across;
 mod bodies;
 mod gjk;
-mod kernel;
-mod motion;
 mod penetration;
+mod samples;
 mod shape;
 mod statistics;
-mod support;
 mod support_table;
-mod witness;
 
+pub use crate::convex::samples::{Motion, MotionError, PoseLanes, Shape, distance};
+pub use across::Witness;
 pub use bodies::BodyPairs;
 pub use fearless_simd::Level;
 pub use gjk::TOLERANCE;
-pub use kernel::{Shape, distance};
-pub use motion::{Motion, MotionError, PoseLanes};
 pub use penetration::{Penetration, penetration};
 pub use shape::{ConvexShape, OrientedBox, ShapeError, Sphere};
 pub use statistics::{
     PairStatistics, PlacedShape, ShapeList, pair_distances, pair_ranges, pair_statistics,
     statistics_of_kinds,
 };
-pub use witness::Witness;

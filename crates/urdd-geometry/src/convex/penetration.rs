@@ -10,10 +10,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::across::PlacedPair;
 use super::gjk::TOLERANCE;
-use crate::hull::facets::triangulate_flat;
 use crate::hull::predicates::{Point, in_range};
 use crate::hull::quickhull::{self, Growing, Start};
-use crate::hull::{ConvexHull, HullError};
+use crate::hull::{ConvexHull, HullError, triangulate_flat};
 
 /// The least translation that separates two shapes.
 #[derive(Clone, Copy, Debug, PartialEq)]

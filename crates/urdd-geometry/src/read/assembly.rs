@@ -5,8 +5,7 @@ use std::fmt;
 
 use nalgebra::Matrix4;
 
-use super::error::{Failure, Fault, NoteCode, Notes};
-use super::scene::{Format, Options, Part, Scene, Texture};
+use super::scene::{Failure, Fault, Format, NoteCode, Notes, Options, Part, Scene, Texture};
 use crate::mesh::Mesh;
 
 /// A scene under construction: one part per material, in the order of first use.

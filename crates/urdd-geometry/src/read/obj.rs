@@ -9,8 +9,7 @@ use super::assembly::{
     Assembly, MAX_PARTS, Material, Picker, TOO_MANY_PARTS, UvCorners, mark, within,
 };
 use super::bytes::{Words, float};
-use super::error::{Failure, NoteCode, Place};
-use super::scene::Texture;
+use super::scene::{Failure, NoteCode, Place, Texture};
 use crate::polygon::Splitter;
 
 /// Reads OBJ. Groups faces by material: objects, groups and smoothing groups do not affect the surface.

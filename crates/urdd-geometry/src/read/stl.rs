@@ -4,7 +4,7 @@ use nalgebra::Matrix4;
 
 use super::assembly::{Assembly, Material, within};
 use super::bytes::{Words, skip_byte_order_mark};
-use super::error::{Failure, Fault, NoteCode, Place};
+use super::scene::{Failure, Fault, NoteCode, Place};
 use crate::mesh::Mesh;
 use crate::polygon::fan;
 

@@ -7,8 +7,8 @@ use nalgebra::{Matrix4, Rotation3, Unit, Vector3};
 use percent_encoding::percent_decode_str;
 use urdd_xml::Node;
 
-use super::super::bytes::Words;
-use super::super::error::{Failure, Fault};
+use crate::read::bytes::Words;
+use crate::read::scene::{Failure, Fault};
 
 /// Elements by tag and id. Of those with the same tag and id, the first counts. The tag is part of the key because real
 /// files reuse ids across tags.

@@ -4,13 +4,12 @@ use std::collections::HashMap;
 
 use urdd_xml::{Node, NodeId};
 
-use super::super::assembly::{Picker, UvCorners};
-use super::super::bytes::{Words, float};
-use super::super::error::{Failure, Fault, NoteCode, Notes};
-use super::super::scene::Options;
 use super::document::{Document, Elements, child, children, text};
 use crate::mesh::Mesh;
 use crate::polygon::{Splitter, fan, strip};
+use crate::read::assembly::{Picker, UvCorners};
+use crate::read::bytes::{Words, float};
+use crate::read::scene::{Failure, Fault, NoteCode, Notes, Options};
 
 /// The positions, or the texture coordinates (true), of each source that was read, shared between meshes.
 type Read = HashMap<(NodeId, bool), Vec<[f64; 3]>>;

@@ -5,10 +5,10 @@ use base64::Engine as _;
 use base64::engine::DecodePaddingMode;
 use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
 
-use super::super::assembly::{Assembly, within};
-use super::super::collada::path_of_url;
-use super::super::error::{Failure, Fault, NoteCode};
 use super::json::{Accessor, Root, SparseArray};
+use crate::read::assembly::{Assembly, within};
+use crate::read::collada::path_of_url;
+use crate::read::scene::{Failure, Fault, NoteCode};
 use crate::vector::norm;
 
 const BYTE: u32 = 5120;
