@@ -4,7 +4,7 @@ use std::mem;
 use urdd_format::readable::counted;
 
 use urdd_directory::cancellation::Cancellation;
-use urdd_kinematics::pose_matrix::pose;
+use urdd_kinematics::pose::pose;
 use urdd_robot::{InverseSettings, Queries, RobotError, Target as RobotTarget, check_margin, fill};
 
 use crate::failure::{Failure, Status, run};

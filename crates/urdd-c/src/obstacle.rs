@@ -4,7 +4,7 @@ use std::{ffi::c_char, ptr};
 
 use nalgebra::Isometry3;
 use urdd_geometry::Mesh;
-use urdd_kinematics::pose_matrix::pose;
+use urdd_kinematics::pose::pose;
 use urdd_robot::{Obstacle as RobotObstacle, World};
 
 use crate::failure::{Failure, Status};

@@ -10,8 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::across::PlacedPair;
 use super::gjk::TOLERANCE;
-use crate::hull::predicates::{Point, in_range};
-use crate::hull::quickhull::{self, Growing, Start};
+use crate::hull::quickhull::{self, Growing, Point, Start, in_range};
 use crate::hull::{ConvexHull, HullError, triangulate_flat};
 
 /// The least translation that separates two shapes.

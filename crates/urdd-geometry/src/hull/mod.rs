@@ -8,15 +8,13 @@
 //! 1e-4 of its length as flat or as a line: points then remain outside by up to that much, or the "hull" has two
 //! vertices.
 
-pub mod predicates;
 pub(crate) mod quickhull;
 
 use nalgebra::Vector3;
 
-use crate::hull::predicates::{Point, in_range, lexicographic, side_of_plane, turn};
-use crate::hull::quickhull::{Start, Triangle};
 use crate::mesh::{Mesh, from_lowest};
 use crate::polygon::fan;
+use quickhull::{Point, Start, Triangle, in_range, lexicographic, side_of_plane, turn};
 
 pub use crate::hull::quickhull::HullError;
 

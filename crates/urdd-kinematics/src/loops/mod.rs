@@ -5,8 +5,8 @@ mod close;
 mod equations;
 mod independent;
 mod model;
-mod rows;
 
+pub(crate) use close::solve_cholesky;
 pub use close::{NotClosed, Scratch};
 pub use equations::{FirstOpen, Gap};
 pub use independent::{Mobility, VelocityScratch};
