@@ -8,8 +8,7 @@ use urdd_kinematics::pose::pose;
 use urdd_robot::{Obstacle as RobotObstacle, World};
 
 use crate::failure::{Failure, Status};
-use crate::handle::{at, free, handle, make};
-use crate::memory::{enough, plain, read_text, triple, values, with_poses};
+use crate::memory::{at, enough, free, handle, make, plain, read_text, triple, values, with_poses};
 use crate::names::out_of_range;
 
 /// A body that a robot must not touch, in the root link's frame.

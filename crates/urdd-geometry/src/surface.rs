@@ -281,7 +281,7 @@ pub fn open_edge(mesh: &Mesh) -> Option<[f64; 3]> {
 
 /// Groups of the elements `0..count`. The first element represents its group, so that the result does not depend on the
 /// order of joining.
-pub struct Groups(Vec<u32>);
+pub(crate) struct Groups(Vec<u32>);
 
 impl Groups {
     /// Each element is a group of its own.

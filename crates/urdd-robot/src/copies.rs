@@ -173,7 +173,6 @@ struct Tree {
 }
 
 impl Tree {
-    /// Makes the node of some centres.
     fn node(&mut self, centres: &mut [[f64; 3]]) -> u32 {
         let index = self.nodes.len();
         let [far, near] = [Row([f32::INFINITY; LANES]), Row([f32::NEG_INFINITY; LANES])];

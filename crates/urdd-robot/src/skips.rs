@@ -220,7 +220,6 @@ impl PairStatistics {
 
 /// Each method fails if the files of the URDD cannot be listed.
 impl Robot {
-    /// The module of statistics, if there is one.
     pub(super) fn statistics(&self) -> Result<Urdd, RobotError> {
         self.part_as_it_is(&[MODULE])
     }

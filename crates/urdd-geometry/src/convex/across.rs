@@ -119,7 +119,6 @@ fn eight_witnesses<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [Witness; LANES] {
     found
 }
 
-/// One shape per lane.
 struct Eight<'a>([&'a ConvexShape; LANES]);
 
 /// The shapes of up to eight pairs, relative to their centres, and the poses of the second shapes in the frames of the
@@ -237,7 +236,6 @@ impl<S: Simd> Way<S> {
         self.combined(lane, distance, simplex, weights(&simplex))
     }
 
-    /// The closest points, from vertices and their weights.
     #[inline(always)]
     fn combined<const N: usize>(
         &self,

@@ -9,7 +9,6 @@ use super::across::{self, AT_ONCE, PlacedPair};
 use super::shape::{ConvexShape, ShapeError};
 use crate::bounding_sphere::{BoundingSphere, LARGER, about, about_spheres};
 
-/// A convex shape and its bounding sphere.
 #[derive(Debug)]
 struct Part {
     shape: ConvexShape,
@@ -188,7 +187,6 @@ impl<'a> Near<'a> {
         self.pairs.clear();
     }
 
-    /// Appends the body pairs in contact among the waiting pairs.
     fn take_touching(&mut self, level: Level, found: &mut Vec<usize>) {
         let touching = across::touching(level, &self.pairs);
         let in_contact = |(k, number): (usize, usize)| (touching >> k & 1 == 1).then_some(number);
@@ -197,7 +195,6 @@ impl<'a> Near<'a> {
         self.pairs.clear();
     }
 
-    /// Whether any of the waiting pairs is in contact.
     fn touch(&mut self, level: Level) -> bool {
         let touch = across::any_touches(level, &self.pairs);
         self.numbers.clear();

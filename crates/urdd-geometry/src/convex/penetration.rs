@@ -115,7 +115,6 @@ pub fn penetration(pair: &PlacedPair) -> Option<Penetration> {
     best
 }
 
-/// A triangle of the polytope.
 struct Face {
     normal: Vector3<f64>,
     /// Of its plane from the origin, negative if the origin is outside.

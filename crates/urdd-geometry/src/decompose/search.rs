@@ -92,7 +92,6 @@ pub(super) struct Search {
 
 /// Termination criteria of the search.
 pub(super) struct Limits {
-    /// Maximum number of blocks.
     pub most: usize,
     /// Minimum promise of a cut, relative to the area of the whole hull.
     pub fat: f64,
@@ -249,7 +248,6 @@ impl Group {
     }
 }
 
-/// Two groups joined.
 struct Join {
     block: Block,
     /// Its standoff beyond that of the two.
@@ -280,7 +278,6 @@ const FILLED: f64 = 10.0;
 
 /// Termination criteria of merging.
 pub(super) struct MergeLimits {
-    /// Maximum number of groups.
     pub most: usize,
     /// A join that costs at most this is always made.
     pub free: f64,
@@ -288,7 +285,6 @@ pub(super) struct MergeLimits {
     pub enough: f64,
 }
 
-/// The grouping of the blocks.
 pub(super) struct Groups {
     /// For each block, its group: 0, 1, …, in the order of their first blocks.
     pub of: Vec<usize>,

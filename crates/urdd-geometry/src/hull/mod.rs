@@ -16,7 +16,7 @@ use crate::mesh::{Mesh, from_lowest};
 use crate::polygon::fan;
 use quickhull::{Point, Start, Triangle, in_range, lexicographic, side_of_plane, turn};
 
-pub use crate::hull::quickhull::HullError;
+pub use quickhull::HullError;
 
 /// The convex hull of a set of points.
 ///
@@ -51,16 +51,15 @@ impl ConvexHull {
     /// [`HullError`] if there are no or too many points, a coordinate is out of range, or all points coincide or are
     /// collinear.
     pub fn new(points: &[Point]) -> Result<Self, HullError> {
-        if u32::try_from(points.len()).is_ok_and(|n| n < u32::MAX) {
-            // Adding 0 turns -0.0 into 0.0.
-            let points: Vec<Point> = points.iter().map(|p| p.map(|x| x + 0.0)).collect();
-            if let Some(point) = points.iter().position(|p| !p.iter().all(|x| in_range(*x))) {
-                return Err(HullError::OutOfRange { point });
-            }
-            Self::of_checked(&points)
-        } else {
-            Err(HullError::TooMany)
+        if points.len() >= u32::MAX as usize {
+            return Err(HullError::TooMany);
         }
+        // Adding 0 turns -0.0 into 0.0.
+        let points: Vec<Point> = points.iter().map(|p| p.map(|x| x + 0.0)).collect();
+        if let Some(point) = points.iter().position(|p| !p.iter().all(|x| in_range(*x))) {
+            return Err(HullError::OutOfRange { point });
+        }
+        Self::of_checked(&points)
     }
 
     /// The exact hull, then repeatedly the hull of its corners without slivers, while that is not flat.
@@ -139,7 +138,7 @@ fn without_slivers(mesh: &Mesh, thinnest: f64) -> Option<Vec<Point>> {
 }
 
 /// Joins coplanar triangles to facets, drops points that are not corners, and triangulates the facets again.
-pub fn triangulate(points: &[Point], triangles: &[Triangle]) -> Vec<[u32; 3]> {
+fn triangulate(points: &[Point], triangles: &[Triangle]) -> Vec<[u32; 3]> {
     let (facet, sizes) = facet_of_each(points, triangles);
     // For each point, the number of facets that meet there; 0 inside a facet.
     let mut meetings = vec![0_u32; points.len()];
@@ -239,7 +238,7 @@ fn cut(polygon: &[u32], triangles: &mut Vec<[u32; 3]>) {
 
 /// The mesh in canonical order: vertices sorted by value, each triangle rotated to start at its lowest index, triangles
 /// sorted.
-pub fn canonical(points: &[Point], triangles: Vec<[u32; 3]>) -> Mesh {
+fn canonical(points: &[Point], triangles: Vec<[u32; 3]>) -> Mesh {
     // The rank of each point among the vertices; 0 until it is known.
     let mut rank = vec![u32::MAX; points.len()];
     for p in triangles.as_flattened() {
@@ -260,7 +259,7 @@ pub fn canonical(points: &[Point], triangles: Vec<[u32; 3]>) -> Mesh {
 }
 
 /// The polygon's triangles, front and back. `triangle` is three points that are not collinear.
-pub fn triangulate_flat(points: &[Point], triangle: [u32; 3]) -> Vec<[u32; 3]> {
+pub(crate) fn triangulate_flat(points: &[Point], triangle: [u32; 3]) -> Vec<[u32; 3]> {
     let mut corners = outline(points, triangle);
     let mut triangles: Vec<[u32; 3]> = fan(&corners).collect();
     // The two fans start from different corners and share no diagonal, so no edge is in four triangles.
@@ -296,7 +295,10 @@ fn outline(points: &[Point], triangle: [u32; 3]) -> Vec<u32> {
 }
 
 /// The corners of the convex hull of sorted points, counterclockwise: Andrew's monotone chain.
-pub fn monotone_chain<P: Copy>(sorted: &[P], turns_left: impl Fn(P, P, P) -> bool) -> Vec<P> {
+pub(crate) fn monotone_chain<P: Copy>(
+    sorted: &[P],
+    turns_left: impl Fn(P, P, P) -> bool,
+) -> Vec<P> {
     let mut polygon = Vec::with_capacity(sorted.len() + 1);
     for backwards in [false, true] {
         let fixed = polygon.len();

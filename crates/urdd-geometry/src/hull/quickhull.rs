@@ -135,7 +135,6 @@ pub struct Growing {
     points: Vec<Point>,
     /// The axis-aligned box of all points, larger by what rounding moves them.
     bounds: Bounds,
-    /// Its side lengths.
     extent: Vector3<f64>,
     faces: Vec<Face>,
     /// Slots of removed faces, to be used again.
@@ -168,7 +167,6 @@ impl Growing {
         }
     }
 
-    /// Adds a face; returns its slot.
     fn add_face(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> u32 {
         let [anchor, b, c] = corners.map(|i| Vector3::from(self.points[i as usize]));
         let (u, v) = (b - anchor, c - anchor);

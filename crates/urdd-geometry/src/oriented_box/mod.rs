@@ -17,9 +17,9 @@ mod shadow;
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use crate::hull::ConvexHull;
-use crate::oriented_box::arc::{Arc, Known, Queue, Sketched, Stretch};
-use crate::oriented_box::shadow::{AXES, Candidate, Caster, Edge};
 use crate::vector::{dot, spread};
+use arc::{Arc, Known, Queue, Sketched, Stretch};
+use shadow::{AXES, Candidate, Caster, Edge};
 
 /// An oriented box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +77,9 @@ impl OrientedBox {
     /// The search is that of [`Self::around`], but skips what cannot reach `volume`. That is much less work if `volume`
     /// is near the minimum.
     pub fn exists_within(hull: &ConvexHull, volume: f64) -> bool {
-        finds_box(hull, volume)
+        let mut search = Search::new(hull, volume, true);
+        search.run();
+        !search.found.is_empty()
     }
 
     /// The smallest box of this orientation that encloses a hull.
@@ -166,7 +168,7 @@ const PASSES: [Pass; 2] = [
 const GAIN: f64 = 1e-6;
 
 /// Boxes whose volumes differ by less than this fraction count as equal.
-pub const TIE: f64 = 1e-6;
+const TIE: f64 = 1e-6;
 
 /// Hulls with at most this many corners get no coarse hull.
 const COARSE_ABOVE: usize = 150;
@@ -193,19 +195,12 @@ struct Search {
 }
 
 /// The boxes within [`TIE`] of the smallest one found; none only if the hull has no area.
-pub fn smallest_boxes(hull: &ConvexHull) -> Vec<Candidate> {
+fn smallest_boxes(hull: &ConvexHull) -> Vec<Candidate> {
     let mut search = Search::new(hull, f64::INFINITY, false);
     search.run();
     let limit = search.best * (1.0 + TIE);
     search.found.retain(|candidate| candidate.volume <= limit);
     search.found
-}
-
-/// Whether that search finds a box of at most `volume`, cubic metres. It ends with the first.
-pub fn finds_box(hull: &ConvexHull, volume: f64) -> bool {
-    let mut search = Search::new(hull, volume, true);
-    search.run();
-    !search.found.is_empty()
 }
 
 /// A hull of some of the corners; `None` for a small hull.
@@ -279,7 +274,6 @@ impl Search {
         self.left > 0 && coarse.is_none_or(|c| c.volume <= self.best)
     }
 
-    /// Evaluates the middle of a stretch.
     fn judge(&mut self, mut item: Sketched, queue: &mut Queue) -> Known {
         if self.coarse.is_none() {
             return self.take(item.sketch);
@@ -302,7 +296,6 @@ impl Search {
         self.take(item.fine.flatten())
     }
 
-    /// Tries each triangle's normal.
     fn try_faces(&mut self) -> Vec<Known> {
         let normals = self.fine.normals.clone();
         let sketches = self.sketches(&normals);

@@ -75,7 +75,6 @@ pub(super) fn read(
     Ok(())
 }
 
-/// The faces of one material.
 #[derive(Default)]
 struct Group {
     material: Option<String>,
@@ -98,11 +97,9 @@ struct File {
     too_many: bool,
     group_of: HashMap<String, usize>,
     splitter: Splitter,
-    /// The corners of the current face.
     corners: Vec<u32>,
     /// Group and triangles of each face with a vertex that was not there yet.
     ahead: Vec<(usize, Range<usize>)>,
-    /// Number of dropped faces.
     bad: usize,
 }
 
@@ -264,7 +261,6 @@ fn beside(library: &str, texture: &str) -> String {
     }
 }
 
-/// A material of the library.
 #[derive(Debug)]
 struct Entry {
     name: String,

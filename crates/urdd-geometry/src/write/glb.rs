@@ -186,16 +186,16 @@ const CREASE: f64 = 0.819_152_044_288_991_8;
 
 /// A mesh with one normal per vertex. The vertices start with those of the mesh, in order. Copies of vertices with
 /// several normals, at creases of the surface, follow.
-pub(super) struct Shaded {
-    pub(super) mesh: Mesh,
-    pub(super) normals: Vec<[f32; 3]>,
+struct Shaded {
+    mesh: Mesh,
+    normals: Vec<[f32; 3]>,
 }
 
 /// Computes the normals of a mesh. Faces around a vertex share a normal as long as adjacent ones meet, along an edge,
 /// at less than the crease angle. Each face is weighted by its angle at the vertex.
 ///
 /// The mesh must be welded and have no index out of range.
-pub(super) fn shaded(mesh: &Mesh) -> Shaded {
+fn shaded(mesh: &Mesh) -> Shaded {
     let units: Vec<Vector3<f64>> = mesh
         .triangles
         .iter()

@@ -98,7 +98,6 @@ impl Gap {
 }
 
 impl Ends {
-    /// The pose of frame B in frame A.
     fn between(&self, poses: &[Isometry3<f64>]) -> Isometry3<f64> {
         let [a, b] = self.world(poses);
         a.inv_mul(&b)

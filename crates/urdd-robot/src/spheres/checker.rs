@@ -30,25 +30,13 @@ use urdd_kinematics::fill;
 /// Motions are straight. They fail as [`Queries::first_contact`](crate::Queries::first_contact), and with
 /// [`RobotError::Setting`] without a resolution, as spheres have no proof, and for a robot with kinematic loops unless the
 /// settings allow open ones: spheres follow no closed motion.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct SphereChecker<C> {
     motion: Arc<Motion>,
     closure: Result<Option<Arc<Closure>>, RobotError>,
     model: Arc<Model>,
     obstacles: Obstacles,
     coverage: PhantomData<C>,
-}
-
-impl<C> Clone for SphereChecker<C> {
-    fn clone(&self) -> Self {
-        SphereChecker {
-            motion: Arc::clone(&self.motion),
-            closure: self.closure.clone(),
-            model: Arc::clone(&self.model),
-            obstacles: self.obstacles.clone(),
-            coverage: PhantomData,
-        }
-    }
 }
 
 /// Blocks of eight configurations in one piece of work for a thread.

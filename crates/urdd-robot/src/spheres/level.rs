@@ -86,7 +86,7 @@ impl Proximity {
 }
 
 /// What the spheres of a robot say of its shapes, as a type: [`Covering`] or [`Approximating`].
-pub trait Coverage: sealed::Sealed + Send + Sync {
+pub trait Coverage: sealed::Sealed + Clone + Send + Sync {
     /// What is said of a configuration.
     type Answer: Copy + Send + Sync + Default + PartialEq + std::fmt::Debug;
     /// Whether radii grow by what is rounded.

@@ -18,7 +18,6 @@ use urdd_geometry::convex::across::{self, PlacedPair};
 use urdd_geometry::convex::{ConvexShape, Level};
 use urdd_geometry::vector::norm;
 
-/// The obstacles of a world.
 #[derive(Debug, Clone, Default)]
 pub struct Obstacles {
     pub names: Vec<Arc<str>>,
@@ -133,13 +132,8 @@ impl Obstacles {
                     continue;
                 }
                 let radius = around[3] + slack;
-                let near = solid.touches(
-                    simd,
-                    model.level,
-                    centre,
-                    radius,
-                    Asked { lanes: near, any: false },
-                );
+                let asked_near = Asked { lanes: near, any: false };
+                let near = solid.touches(simd, model.level, centre, radius, asked_near);
                 if near == 0 {
                     continue;
                 }
@@ -346,7 +340,6 @@ fn convex(
     touches.fold(0, |found, (lane, _)| found | 1 << lane)
 }
 
-/// What an obstacle is made of.
 fn kinds(one: &Obstacle) -> Result<Vec<Kind>, RobotError> {
     let kind = match one.form {
         Form::Box(half) => Kind::Box(half.map(|x| x as f32)),

@@ -71,8 +71,7 @@ impl Frames {
                     Some([within(&constant, x), within(&constant, y), within(&constant, z)])
                 }
             };
-            if let Some(columns) = turned {
-                let [x, y, z] = columns;
+            if let Some([x, y, z]) = turned {
                 self.rotations[step.to.rotation] = [x.store(), y.store(), z.store()];
             }
             self.origins[step.to.origin] = origin.store();
@@ -300,14 +299,8 @@ impl Placed {
             if found == 0 {
                 break;
             }
-            found = self.level_touches(
-                simd,
-                model,
-                level,
-                [a, b],
-                grown,
-                Asked { lanes: found, ..asked },
-            );
+            let asked = Asked { lanes: found, ..asked };
+            found = self.level_touches(simd, model, level, [a, b], grown, asked);
         }
         found
     }

@@ -14,7 +14,7 @@ use document::{Document, child, children, file_of_image, numbers, rows, text, tr
 use geometry::{Primitive, Tools};
 use urdd_xml::{Node, NodeId};
 
-pub(super) use crate::read::collada::document::path_of_url;
+pub(super) use document::path_of_url;
 
 /// Reads a document: adds every geometry of its visual scene where the nodes place it.
 pub(super) fn read(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
@@ -30,7 +30,7 @@ pub(super) fn read(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure>
     if tag != "COLLADA" {
         return Err(Fault::malformed(format!("the outermost element is `{tag}`, not `COLLADA`")));
     }
-    let document = Document::new(root);
+    let document = Document::new(root, root.descendants());
     for image in document.images() {
         assembly.add_side_file(&image);
     }

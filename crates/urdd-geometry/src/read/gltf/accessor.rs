@@ -113,7 +113,6 @@ pub(super) fn check_normals(
 /// Tolerance for the length of a normal, which must be 1.
 const UNIT_NORMAL: f64 = 1e-3;
 
-/// The vertex indices of an accessor.
 pub(super) fn indices(
     index: usize,
     buffers: &mut Buffers<'_, '_>,
@@ -278,7 +277,6 @@ impl<'r, 'f> Buffers<'r, 'f> {
     }
 }
 
-/// Whether a URI is a data URI.
 pub(super) fn is_data(uri: &str) -> bool {
     uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
 }

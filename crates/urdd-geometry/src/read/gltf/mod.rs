@@ -22,7 +22,6 @@ use json::{Node, Primitive, Root};
 const LOOKS: [&str; 5] =
     ["KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "KHR_materials_"];
 
-/// Reads a .gltf.
 pub(super) fn read_json(
     bytes: &[u8],
     fetch: Fetch<'_>,
@@ -349,7 +348,6 @@ impl Walker<'_, '_, '_, '_> {
     }
 }
 
-/// The node's local transform.
 fn local(node: &Node) -> Result<Matrix4<f64>, Failure> {
     let matrix = if let Some(matrix) = node.matrix {
         let mut matrix = Matrix4::from_column_slice(&matrix);
