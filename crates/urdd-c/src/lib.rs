@@ -37,7 +37,6 @@ use failure::Owned;
 
 pub use bodies::*;
 pub use checks::*;
-pub use checks::*;
 pub use collision_model::*;
 pub use failure::*;
 pub use inverse::*;

@@ -1,13 +1,10 @@
-//! Shapes prepared for distance queries, pairs of them (of robots, obstacles, attached objects) that are swept by spheres, and
-//! gradients of their distances with respect to the configuration.
+//! Shapes prepared for distance queries, and pairs of them (of robots, obstacles, attached objects) that are swept by spheres.
 
 use std::sync::Arc;
 
 use arrayvec::ArrayVec;
 
 use crate::kept::Solid;
-use crate::proximity::{PairDistance, Proximity};
-use crate::workspace::{Derivative, Placed};
 use urdd_geometry::bounding_sphere::{BoundingSphere, about, about_spheres};
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
 use urdd_geometry::convex::{ConvexShape, Level, Penetration, ShapeError, Witness, penetration};
@@ -200,9 +197,6 @@ pub struct Gradient<P> {
     pub gradient: Option<Vec<f64>>,
 }
 
-/// The distance of a pair of the robot's shapes, and how it changes.
-pub type PairGradient = Gradient<PairDistance>;
-
 /// Two shapes that touch or overlap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Overlap<P> {
@@ -215,36 +209,6 @@ pub struct Overlap<P> {
     /// The derivative of the depth for each DOF, m/rad or m/m, of the two points as they are. Where another translation is
     /// as short, the depth is not differentiable, and this is one of its directional derivatives.
     pub gradient: Vec<f64>,
-}
-
-impl Proximity {
-    /// How fast two points of links, in the root link's frame, come apart in a direction with each DOF, m/rad or m/m.
-    /// Without a second link, the second point stays.
-    pub(crate) fn derivative<'a>(
-        &self,
-        configuration: &[f64],
-        placed: &Placed,
-        (a, b): (usize, Option<usize>),
-        points: [[f64; 3]; 2],
-        direction: [f64; 3],
-        memory: &'a mut Derivative,
-    ) -> &'a [f64] {
-        let kinematics = &self.motion.kinematics;
-        let dofs = kinematics.num_dofs();
-        memory.jacobian.resize(6 * dofs, 0.0);
-        memory.of_dofs.clear();
-        memory.of_dofs.resize(dofs, 0.0);
-        for (link, point, sign) in [(Some(a), points[0], -1.0), (b, points[1], 1.0)] {
-            let Some(link) = link else { continue };
-            let (poses, jacobian) = (&placed.poses, &mut memory.jacobian);
-            kinematics.jacobian_into(configuration, poses, link, &point.into(), jacobian);
-            for (sum, column) in memory.of_dofs.iter_mut().zip(jacobian.chunks_exact(6)) {
-                let speed: f64 = (0..3).map(|k| direction[k] * column[k]).sum();
-                *sum += sign * speed;
-            }
-        }
-        &memory.of_dofs
-    }
 }
 
 /// The direction and the points of a penetration in the root link's frame, from the frame of a link.
