@@ -10,7 +10,7 @@ use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use urdd_directory::cancellation::Cancellation;
-use urdd_kinematics::pose_matrix::write_matrix;
+use urdd_kinematics::pose::write_matrix;
 use urdd_robot::{RobotError, has_room};
 
 use crate::errors::of_robot;

@@ -3,7 +3,7 @@
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use urdd_geometry::Mesh;
-use urdd_kinematics::pose_matrix::unchecked_pose;
+use urdd_kinematics::pose::unchecked_pose;
 use urdd_robot::RobotError;
 
 use crate::arrays::{check_memory, copy};

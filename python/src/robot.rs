@@ -12,7 +12,7 @@ use numpy::{
 };
 use pyo3::prelude::*;
 use urdd_directory::cancellation::Cancellation;
-use urdd_kinematics::pose_matrix::{unchecked_pose, write_matrix};
+use urdd_kinematics::pose::{unchecked_pose, write_matrix};
 use urdd_robot::{
     GravitySettings, InverseSettings, Payload, Queries, RobotError, ShapeKind, Target, Verdict,
     check_margin, fill,

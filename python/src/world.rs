@@ -7,7 +7,7 @@ use numpy::{
     PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
-use urdd_kinematics::pose_matrix::pose;
+use urdd_kinematics::pose::pose;
 use urdd_robot::{EdgeSettings, ObstacleDistance, Obstruction, Queries, World};
 
 use crate::arrays::{Batch, check_memory, shaped, zeros};

@@ -14,7 +14,7 @@ use std::ptr::null_mut;
 use std::time::Instant;
 
 use urdd_c::*;
-use urdd_kinematics::pose_matrix::write_matrix;
+use urdd_kinematics::pose::write_matrix;
 use urdd_robot::spheres::SphereChecker;
 use urdd_robot::{Queries, ShapeKind};
 

@@ -3,8 +3,7 @@
 use std::ffi::c_char;
 
 use crate::failure::{Failure, Status, Text, run};
-use crate::handle::{at, make};
-use crate::memory::{enough, put, read_text, values};
+use crate::memory::{at, enough, make, put, read_text, values};
 use crate::names::nth;
 use crate::obstacle::Obstacle;
 use crate::proximity::Proximity;
@@ -96,7 +95,6 @@ pub unsafe extern "C" fn urdd_proximity_body_name(
     run(|| unsafe { put("out", out, nth("body", at(handle)?.names(), body)?.text()) })
 }
 
-/// The caller's texts.
 unsafe fn texts<'a>(data: *const *const c_char, count: usize) -> Result<Vec<&'a str>, Failure> {
     unsafe {
         let names = values("names", data, count)?;

@@ -4,10 +4,9 @@ use urdd_kinematics::ConfigurationError;
 use urdd_robot::RobotError;
 
 use crate::failure::{Failure, Owned, Status, Text, run};
-use crate::handle::{at, free, handle, make};
-use crate::memory::{plain, put, put_all, put_numbers};
+use crate::memory::{at, free, handle, make, plain, put, put_all, put_numbers};
+use crate::queries::Rows;
 use crate::robot::Robot;
-use crate::rows::Rows;
 
 /// The learned self-collision model of a URDD (SPEC 8.8): an estimate of the clearance between links.
 pub struct CollisionModel {

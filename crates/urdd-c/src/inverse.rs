@@ -4,12 +4,11 @@ use std::mem;
 use urdd_format::readable::counted;
 
 use urdd_directory::cancellation::Cancellation;
-use urdd_kinematics::pose_matrix::pose;
+use urdd_kinematics::pose::pose;
 use urdd_robot::{InverseSettings, Queries, RobotError, Target as RobotTarget, check_margin, fill};
 
 use crate::failure::{Failure, Status, run};
-use crate::handle::{Handle, at};
-use crate::memory::{check, exact_room, plain, put, values};
+use crate::memory::{Handle, at, check, exact_room, plain, put, values};
 use crate::proximity::Proximity;
 use crate::robot::Robot;
 use crate::world::WorldProximity;

@@ -1,12 +1,11 @@
 //! Forward kinematics, limits of DOFs, masses, and what gravity does to them.
 
 use urdd_directory::cancellation::Cancellation;
-use urdd_kinematics::pose_matrix::write_matrix;
+use urdd_kinematics::pose::write_matrix;
 use urdd_robot::{GravitySettings, Payload, RobotError};
 
 use crate::failure::{Failure, Status, run};
-use crate::handle::at;
-use crate::memory::{put_all, triple, with_poses};
+use crate::memory::{at, put_all, triple, with_poses};
 use crate::robot::Robot;
 
 /// Numbers of a pose.

@@ -5,7 +5,7 @@
 //! has the rules for ownership, threads and errors.
 //!
 //! The head also has the contract of pointers, which is that of every unsafe function here: its callers keep it, and the
-//! functions hand their pointers on to `memory` and `handle`, which say what they must be. So `unsafe` in the other files
+//! functions hand their pointers on to `memory`, which says what they must be. So `unsafe` in the other files
 //! needs no comment.
 
 #![allow(clippy::missing_safety_doc, reason = "the contract is in the head of the header, once")]
@@ -14,7 +14,6 @@ mod bodies;
 mod checks;
 mod collision_model;
 mod failure;
-mod handle;
 mod inverse;
 mod kinematics;
 mod loops;
@@ -25,12 +24,8 @@ mod planning;
 mod proximity;
 mod queries;
 mod robot;
-mod rows;
-mod skips;
 mod space;
-mod sphere_levels;
 mod spheres;
-mod threads;
 mod validate;
 mod world;
 
@@ -41,6 +36,7 @@ use urdd_format::registry::PROGRAM_VERSION;
 use failure::Owned;
 
 pub use bodies::*;
+pub use checks::*;
 pub use collision_model::*;
 pub use failure::*;
 pub use inverse::*;
@@ -51,9 +47,7 @@ pub use obstacle::*;
 pub use planning::*;
 pub use proximity::*;
 pub use robot::*;
-pub use skips::*;
 pub use space::*;
-pub use sphere_levels::*;
 pub use spheres::*;
 pub use validate::*;
 pub use world::*;

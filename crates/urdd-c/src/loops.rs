@@ -4,8 +4,7 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_robot::{CloseSettings, LoopErrors};
 
 use crate::failure::{Failure, Status, Text, run};
-use crate::handle::at;
-use crate::memory::{exact_room, put, put_all, put_numbers, room, values};
+use crate::memory::{at, exact_room, put, put_all, put_numbers, room, values};
 use crate::names::nth;
 use crate::robot::Robot;
 

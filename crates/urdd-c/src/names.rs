@@ -2,10 +2,9 @@
 
 use std::ffi::c_char;
 
-use crate::failure::{Failure, Owned, Status, Text, constant, run};
-use crate::handle::at;
-use crate::memory::{check, put, put_all, put_numbers, read_text, room};
-use crate::robot::{Names, Robot};
+use crate::failure::{Failure, Status, Text, constant, run};
+use crate::memory::{at, check, put, put_all, put_numbers, read_text, room};
+use crate::robot::Robot;
 
 /// Writes the number of configurations that a person named; 0 without named_configurations_module.
 ///
@@ -61,11 +60,11 @@ pub unsafe extern "C" fn urdd_robot_sizes(
     dofs: *mut usize,
 ) -> Status {
     run(|| unsafe {
-        let names = at(handle)?.names()?;
+        let [of_links, of_joints, of_dofs] = at(handle)?.names()?.each_ref().map(Vec::len);
         put_numbers([
-            ("links", links, names.links.len()),
-            ("joints", joints, names.joints.len()),
-            ("dofs", dofs, names.dofs.len()),
+            ("links", links, of_links),
+            ("joints", joints, of_joints),
+            ("dofs", dofs, of_dofs),
         ])
     })
 }
@@ -79,7 +78,7 @@ pub unsafe extern "C" fn urdd_robot_link_name(
     link: usize,
     out: *mut Text,
 ) -> Status {
-    unsafe { name(handle, "link", |names| &names.links, link, out) }
+    unsafe { name(handle, ("link", 0), link, out) }
 }
 
 /// As `urdd_robot_link_name`, for a joint.
@@ -89,7 +88,7 @@ pub unsafe extern "C" fn urdd_robot_joint_name(
     joint: usize,
     out: *mut Text,
 ) -> Status {
-    unsafe { name(handle, "joint", |names| &names.joints, joint, out) }
+    unsafe { name(handle, ("joint", 1), joint, out) }
 }
 
 /// As `urdd_robot_link_name`, for a DOF: the name of its joint, with the coordinate if the joint has several.
@@ -99,7 +98,7 @@ pub unsafe extern "C" fn urdd_robot_dof_name(
     dof: usize,
     out: *mut Text,
 ) -> Status {
-    unsafe { name(handle, "DOF", |names| &names.dofs, dof, out) }
+    unsafe { name(handle, ("DOF", 2), dof, out) }
 }
 
 /// Writes the unit of a DOF: "rad" or "m". It lives as long as the library.
@@ -191,15 +190,15 @@ pub(crate) fn nth<'a, T>(
     list.get(index).ok_or_else(|| out_of_range(what, index, list.len()))
 }
 
+/// Writes a name of a list of [`Robot::names`].
 unsafe fn name(
     handle: *const Robot,
-    what: &'static str,
-    of: impl FnOnce(&Names) -> &[Owned],
+    (what, list): (&'static str, usize),
     index: usize,
     out: *mut Text,
 ) -> Status {
     run(|| unsafe {
         check("out", out)?;
-        put("out", out, nth(what, of(at(handle)?.names()?), index)?.text())
+        put("out", out, nth(what, &at(handle)?.names()?[list], index)?.text())
     })
 }

@@ -4,12 +4,11 @@ use std::{ffi::c_char, ptr};
 
 use nalgebra::Isometry3;
 use urdd_geometry::Mesh;
-use urdd_kinematics::pose_matrix::pose;
+use urdd_kinematics::pose::pose;
 use urdd_robot::{Obstacle as RobotObstacle, World};
 
 use crate::failure::{Failure, Status};
-use crate::handle::{at, free, handle, make};
-use crate::memory::{enough, plain, read_text, triple, values, with_poses};
+use crate::memory::{at, enough, free, handle, make, plain, read_text, triple, values, with_poses};
 use crate::names::out_of_range;
 
 /// A body that a robot must not touch, in the root link's frame.

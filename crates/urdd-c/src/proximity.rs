@@ -6,11 +6,9 @@ use std::sync::{Arc, OnceLock};
 use urdd_robot::{PairDistance as RobotPair, Queries, RobotError, ShapeKind};
 
 use crate::failure::{Failure, Owned, Status, run};
-use crate::handle::{at, free, handle, make};
-use crate::memory::{plain, put_all, put_numbers, read_text};
-use crate::queries::Asked;
+use crate::memory::{at, free, handle, make, plain, put_all, put_numbers, read_text};
+use crate::queries::{Asked, Rows};
 use crate::robot::Robot;
-use crate::rows::Rows;
 
 /// The shapes of one kind of a robot, prepared for distances.
 pub struct Proximity(pub(crate) Arc<urdd_robot::Proximity>, OnceLock<Vec<Owned>>);

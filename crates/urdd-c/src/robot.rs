@@ -8,23 +8,16 @@ use urdd_format::named_configurations::NamedConfiguration;
 use urdd_robot::RobotError;
 
 use crate::failure::{Failure, Owned, Status};
-use crate::handle::{free, handle, make};
-use crate::memory::{enough, read_text, values};
-use crate::rows::Rows;
+use crate::memory::{enough, free, handle, make, read_text, values};
+use crate::queries::Rows;
 
 /// A robot, as its URDD describes it.
 pub struct Robot {
     pub(crate) robot: urdd_robot::Robot,
-    names: OnceLock<Names>,
+    /// Of links, of joints, of DOFs.
+    names: OnceLock<[Vec<Owned>; 3]>,
     configurations: OnceLock<Vec<Owned>>,
     loops: OnceLock<[Vec<Owned>; 2]>,
-}
-
-/// The names of a robot's parts, for C.
-pub(crate) struct Names {
-    pub links: Vec<Owned>,
-    pub joints: Vec<Owned>,
-    pub dofs: Vec<Owned>,
 }
 
 handle!(Robot, "urdd_robot");
@@ -39,16 +32,11 @@ impl Robot {
         }
     }
 
-    pub(crate) fn names(&self) -> Result<&Names, RobotError> {
+    pub(crate) fn names(&self) -> Result<&[Vec<Owned>; 3], RobotError> {
         let robot = &self.robot;
-        let (links, joints) = (robot.link_names()?, robot.joint_names()?);
-        let dofs = robot.dof_names()?;
+        let names = [robot.link_names()?, robot.joint_names()?, robot.dof_names()?];
         let owned = |names: &[String]| names.iter().map(|name| Owned::new(name)).collect();
-        Ok(self.names.get_or_init(|| Names {
-            links: owned(links),
-            joints: owned(joints),
-            dofs: owned(dofs),
-        }))
+        Ok(self.names.get_or_init(|| names.map(owned)))
     }
 
     /// The names of the configurations that a person named.
@@ -76,7 +64,6 @@ impl Robot {
         Ok(self.robot.dof_names()?.len())
     }
 
-    /// The caller's configurations.
     pub(crate) unsafe fn rows<'a>(
         &self,
         what: &'static str,
@@ -119,7 +106,6 @@ pub unsafe extern "C" fn urdd_robot_of_archive(
     }
 }
 
-/// An archive in memory.
 pub(crate) fn archive(name: &str, bytes: &[u8]) -> Result<Archive, Failure> {
     enough("bytes", bytes.len(), 2)?;
     Archive::new(name, bytes.to_vec()).map_err(|error| {

@@ -2,14 +2,12 @@
 
 use urdd_robot::spheres::{self, Approximating, Covering, SphereChecker};
 
-use crate::checks::Checks;
+use crate::checks::{Checks, LinkSphere, levels};
 use crate::collision_model::LinkPair;
 use crate::failure::{Status, run};
-use crate::handle::{at, free, handle, make};
-use crate::memory::{plain, put};
+use crate::memory::{at, free, handle, make, plain, put};
 use crate::obstacle::Obstacle;
 use crate::robot::Robot;
-use crate::sphere_levels::{LinkSphere, levels};
 
 /// Spheres that contain the shapes of a robot: where none touch, the robot is certainly free.
 pub struct CoveringChecker(SphereChecker<Covering>);
@@ -42,53 +40,35 @@ pub enum ApproximateAnswer {
 
 plain!(CoveringAnswer, ApproximateAnswer);
 
-impl Checks for CoveringChecker {
-    type Coverage = Covering;
-    type Answer = CoveringAnswer;
+macro_rules! checks {
+    ($checker:ident, $coverage:ident, $answer:ident: $($said:ident),+) => {
+        impl Checks for $checker {
+            type Coverage = $coverage;
+            type Answer = $answer;
 
-    fn of(checker: SphereChecker<Covering>) -> Self {
-        CoveringChecker(checker)
-    }
+            fn of(checker: SphereChecker<$coverage>) -> Self {
+                $checker(checker)
+            }
 
-    fn checker(&self) -> &SphereChecker<Covering> {
-        &self.0
-    }
+            fn checker(&self) -> &SphereChecker<$coverage> {
+                &self.0
+            }
 
-    fn checker_mut(&mut self) -> &mut SphereChecker<Covering> {
-        &mut self.0
-    }
+            fn checker_mut(&mut self) -> &mut SphereChecker<$coverage> {
+                &mut self.0
+            }
 
-    fn answer(found: spheres::CoveringAnswer) -> CoveringAnswer {
-        match found {
-            spheres::CoveringAnswer::Maybe => CoveringAnswer::Maybe,
-            spheres::CoveringAnswer::Free => CoveringAnswer::Free,
+            fn answer(found: spheres::$answer) -> $answer {
+                match found {
+                    $(spheres::$answer::$said => $answer::$said),+
+                }
+            }
         }
-    }
+    };
 }
 
-impl Checks for ApproximatingChecker {
-    type Coverage = Approximating;
-    type Answer = ApproximateAnswer;
-
-    fn of(checker: SphereChecker<Approximating>) -> Self {
-        ApproximatingChecker(checker)
-    }
-
-    fn checker(&self) -> &SphereChecker<Approximating> {
-        &self.0
-    }
-
-    fn checker_mut(&mut self) -> &mut SphereChecker<Approximating> {
-        &mut self.0
-    }
-
-    fn answer(found: spheres::ApproximateAnswer) -> ApproximateAnswer {
-        match found {
-            spheres::ApproximateAnswer::Contact => ApproximateAnswer::Contact,
-            spheres::ApproximateAnswer::Free => ApproximateAnswer::Free,
-        }
-    }
-}
+checks!(CoveringChecker, Covering, CoveringAnswer: Maybe, Free);
+checks!(ApproximatingChecker, Approximating, ApproximateAnswer: Contact, Free);
 
 /// Prepares the finest level of spheres that covers the links, with the coarser ones around it, as the URDD has them
 /// (link_shapes_spheres_module), for the pairs of links that are neither skipped nor ignored by the level.

@@ -8,8 +8,7 @@ use urdd_validate::report::json;
 use urdd_validate::settings::Settings;
 
 use crate::failure::{Failure, Owned, Status, Text, run};
-use crate::handle::{at, free, handle, make};
-use crate::memory::{put, read_text, values};
+use crate::memory::{at, free, handle, make, put, read_text, values};
 use crate::robot::archive;
 
 /// What validation found.

@@ -5,8 +5,7 @@ use std::sync::Arc;
 use urdd_robot::{ObstacleDistance as RobotDistance, Queries, WorldProximity as RobotWorld};
 
 use crate::failure::{Status, run};
-use crate::handle::{at, at_mut, free, handle, make};
-use crate::memory::{plain, put_all, put_numbers};
+use crate::memory::{at, at_mut, free, handle, make, plain, put_all, put_numbers};
 use crate::obstacle::{Obstacle, with_moves, world_of};
 use crate::proximity::Proximity;
 use crate::queries::Asked;

@@ -29,7 +29,6 @@ mod polygon;
 pub mod primitives;
 pub mod read;
 pub mod surface;
-mod union_find;
 pub mod vector;
 pub mod write;
 

@@ -216,7 +216,6 @@ fn in_range(
     Err(KinematicsError::dof(pointer(), fault))
 }
 
-/// The motion of joint `idx`.
 pub(super) fn motion(
     joint: &JointInChain,
     idx: usize,

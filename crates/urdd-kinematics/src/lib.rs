@@ -5,7 +5,6 @@
 //! [`ForwardKinematics`] computes the pose of every link from a configuration. [`ConfigurationSpace`] provides the
 //! configurations that the specification defines. [`inverse`] computes a configuration from a pose.
 
-mod cholesky;
 #[doc(hidden)]
 pub mod configurations;
 mod error;
@@ -15,8 +14,6 @@ mod jacobian;
 mod joint;
 pub mod loops;
 pub mod pose;
-pub mod pose_matrix;
-mod reach;
 pub mod rotation;
 mod travel;
 
@@ -25,5 +22,4 @@ pub use error::{ConfigurationError, KinematicsError};
 pub use forward::{ForwardKinematics, Step};
 pub use jacobian::{Branch, Load, Place, gather};
 pub use joint::{Axis, Motion, Position, has_axis, joint_motion, num_dofs};
-pub use reach::reach;
-pub use travel::Travel;
+pub use travel::{Travel, reach};

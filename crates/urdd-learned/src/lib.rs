@@ -10,11 +10,11 @@
 //! without fused operations, and functions are those of `libm` or our own.
 
 mod inputs;
-#[doc(hidden)]
-pub mod kernel;
 mod model;
 mod network;
 pub mod train;
 
 pub use model::{Clearance, CollisionModel};
 pub use network::ModelError;
+#[doc(hidden)]
+pub use network::tanh;

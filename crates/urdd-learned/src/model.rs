@@ -4,8 +4,7 @@ use fearless_simd::Level;
 use rayon::prelude::*;
 
 use super::inputs::{self, Input};
-use super::kernel::LANES;
-use super::network::{ModelError, Network};
+use super::network::{LANES, ModelError, Network};
 use urdd_format::self_collision_model::{
     LinkPair, ModelEvaluation, ModelPair, SelfCollisionModelModule,
 };

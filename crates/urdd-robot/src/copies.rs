@@ -4,8 +4,9 @@
 use std::sync::Arc;
 
 use arrayvec::ArrayVec;
+use fearless_simd::{Simd, prelude::*};
 
-use crate::lanes::{LANES, Row};
+use crate::lanes::{LANES, Row, Vec3, bits, splat};
 use urdd_geometry::convex::ConvexShape;
 use urdd_geometry::mesh::Bounds;
 
@@ -15,31 +16,31 @@ pub(crate) struct Copies {
     /// About its centre, which is the origin.
     pub core: Arc<ConvexShape>,
     /// Of the core, m.
-    pub half: [f64; 3],
+    half: [f64; 3],
     /// Where the tree is: its numbers in 32 bits are relative to it, m.
     pub middle: [f64; 3],
     /// Around all copies, m.
     pub bounds: Bounds,
     /// The centres of the copies in the order of the tree, m.
     pub centres: Vec<[f64; 3]>,
-    pub nodes: Vec<Node>,
+    nodes: Vec<Node>,
     /// The centres again, eight at once.
-    pub leaves: Vec<[Row; 3]>,
+    leaves: Vec<[Row; 3]>,
 }
 
 /// More than eight for each node of a path: a node has at most eight times the leaves of those in it.
-pub(crate) const WAITING: usize = 128;
+const WAITING: usize = 128;
 
 /// Eight boxes, and what is in them.
 #[derive(Debug, Clone)]
-pub(crate) struct Node {
-    pub least: [Row; 3],
-    pub most: [Row; 3],
-    pub children: [Child; LANES],
+struct Node {
+    least: [Row; 3],
+    most: [Row; 3],
+    children: [Child; LANES],
 }
 
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Child {
+enum Child {
     /// Nothing: its box is infinitely far.
     None,
     Node(u32),
@@ -123,6 +124,47 @@ impl Copies {
     }
 }
 
+impl Copies {
+    /// Whether any copy is at most `reach` from a point of the frame of the tree.
+    #[inline(always)]
+    pub fn any_touches<S: Simd>(&self, simd: S, point: [f32; 3], reach: f32) -> bool {
+        let at = Vec3::splat(simd, point);
+        let (zero, squared) = (splat(simd, 0.0), splat(simd, reach * reach));
+        let half = [self.half[0] as f32, self.half[1] as f32, self.half[2] as f32];
+        let mut waiting: ArrayVec<Child, WAITING> = ArrayVec::new();
+        waiting.push(Child::Node(0));
+        while let Some(child) = waiting.pop() {
+            match child {
+                Child::None => {}
+                Child::Leaf(leaf) => {
+                    let centre = Vec3::load(simd, &self.leaves[leaf as usize]);
+                    let x = ((centre.x - at.x).abs() - half[0]).max(zero);
+                    let y = ((centre.y - at.y).abs() - half[1]).max(zero);
+                    let z = ((centre.z - at.z).abs() - half[2]).max(zero);
+                    if (x * x + y * y + z * z).simd_le(squared).any_true() {
+                        return true;
+                    }
+                }
+                Child::Node(node) => {
+                    let node = &self.nodes[node as usize];
+                    let (least, most) =
+                        (Vec3::load(simd, &node.least), Vec3::load(simd, &node.most));
+                    let x = (least.x - at.x).max(at.x - most.x).max(zero);
+                    let y = (least.y - at.y).max(at.y - most.y).max(zero);
+                    let z = (least.z - at.z).max(at.z - most.z).max(zero);
+                    let mut near = bits((x * x + y * y + z * z).simd_le(squared));
+                    while near != 0 {
+                        let lane = near.trailing_zeros() as usize;
+                        near &= near - 1;
+                        let _ = waiting.try_push(node.children[lane]);
+                    }
+                }
+            }
+        }
+        false
+    }
+}
+
 struct Tree {
     half: [f64; 3],
     middle: [f64; 3],
@@ -131,7 +173,6 @@ struct Tree {
 }
 
 impl Tree {
-    /// Makes the node of some centres.
     fn node(&mut self, centres: &mut [[f64; 3]]) -> u32 {
         let index = self.nodes.len();
         let [far, near] = [Row([f32::INFINITY; LANES]), Row([f32::NEG_INFINITY; LANES])];

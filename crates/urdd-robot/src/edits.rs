@@ -6,8 +6,7 @@ use serde_json::Value;
 
 use super::Robot;
 use super::error::RobotError;
-use super::names::index;
-use super::robot::{of_read, usable};
+use super::robot::{index, of_read, usable};
 use super::shapes::ShapeKind;
 use super::skips::{SIMPLE, SKIPS, Skips};
 use urdd_directory::discover::ROOT_METADATA;

@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion};
 
 use super::Robot;
 use super::error::RobotError;
-use super::names::check_link;
+use super::robot::check_link;
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::ConfigurationError;
 use urdd_kinematics::inverse::{Conditions, Goal, Inverse, InverseSettings};

@@ -189,7 +189,6 @@ pub(super) struct Closure {
     pub limits: Vec<[f64; 2]>,
     /// The DOFs that move freely, ascending.
     pub independent: Vec<usize>,
-    /// Whether each DOF does.
     pub is_independent: Vec<bool>,
 }
 

@@ -6,9 +6,12 @@ use nalgebra::{Isometry3, Matrix6xX, Point3, Vector3};
 use super::Robot;
 use super::batch::{check_room, room};
 use super::error::RobotError;
-use super::names::check_link;
+use super::kept::LinkMass;
+use super::robot::check_link;
 use super::workspace::{Workspace, with_workspace};
 use urdd_directory::cancellation::Cancellation;
+use urdd_document::kept::keep;
+use urdd_format::urdf::Link;
 use urdd_kinematics::{Load, Place, fill};
 
 /// 6 rows, one column for each DOF: linear velocity, then angular velocity.
@@ -164,6 +167,38 @@ impl Robot {
             cancellation.check()?;
             Ok(branch.jacobian_into(rows.row(k), &point, place, out)?)
         })
+    }
+}
+
+impl Robot {
+    /// The mass of each link, and its centre of mass.
+    ///
+    /// # Errors
+    /// If `urdf_module` is missing or unusable.
+    pub fn link_masses(&self) -> Result<&[LinkMass], RobotError> {
+        let of = |link: Link| {
+            let inertial = link.inertial?;
+            let origin = inertial.origin.and_then(|origin| origin.xyz);
+            Some(LinkMass { mass: inertial.mass?.value, centre: origin.unwrap_or_default() })
+        };
+        keep(&self.masses, || {
+            let links = self.description()?.links.into_iter();
+            Ok(links.map(|link| of(link).unwrap_or_default()).collect())
+        })
+        .map(Vec::as_slice)
+    }
+
+    /// The centre of mass of the robot, in the root link's frame, m; `None` if it has no mass.
+    ///
+    /// # Errors
+    /// As [`Robot::link_poses`] and [`Robot::link_masses`].
+    pub fn centre_of_mass(&self, configuration: &[f64]) -> Result<Option<[f64; 3]>, RobotError> {
+        let poses = self.link_poses(configuration)?;
+        let mut all = Load::default();
+        for (link, pose) in self.link_masses()?.iter().zip(&poses) {
+            all += Load::new(link.mass, link.centre.into(), pose);
+        }
+        Ok((all.mass > 0.0).then(|| (all.moment / all.mass).into()))
     }
 }
 

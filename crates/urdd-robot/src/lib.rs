@@ -31,9 +31,7 @@
 
 mod batch;
 mod checked;
-mod collision_model;
 mod copies;
-mod description;
 mod edge;
 mod edits;
 mod error;
@@ -45,7 +43,6 @@ mod lanes;
 mod link_spheres;
 mod loop_equations;
 mod loops;
-mod names;
 mod obstacle;
 mod placed_part;
 pub mod proximity;
@@ -61,7 +58,6 @@ pub mod world;
 #[doc(hidden)]
 pub use batch::has_room;
 pub use checked::check_margin;
-pub use description::SourceFile;
 pub use edge::{EdgeSettings, FirstContact, Obstruction};
 pub use edits::{EditedConfigurations, EditedSkips, Files};
 pub use error::RobotError;
@@ -73,7 +69,7 @@ pub use loops::{CloseSettings, Closed, ClosedBatch, LoopErrors};
 pub use obstacle::{Obstacle, World};
 pub use proximity::{Gradient, Overlap, PairDistance, PairGradient, Proximity};
 pub use queries::Queries;
-pub use robot::Robot;
+pub use robot::{Robot, SourceFile};
 pub use shapes::{LinkVisual, ShapeKind};
 pub use skips::{PairStatistics, Skips};
 pub use source_elements::{SourceElement, SourceElements, SourceShape};

@@ -50,7 +50,6 @@ pub(crate) struct Part {
     pub radius: f64,
     /// Where the shape is, if it is at many places.
     pub copies: Option<Arc<Copies>>,
-    /// The points of the shape.
     points: Arc<[[f64; 3]]>,
     /// Of the points, in metres.
     pub bounds: Bounds,
@@ -70,8 +69,13 @@ impl Part {
     /// Copies of a box about the origin, swept by a sphere.
     fn of_copies(half: [f64; 3], radius: f64, centres: Vec<[f64; 3]>) -> Result<Self, ShapeError> {
         // The same limits as for other shapes.
-        let Bounds { min, max } = Bounds::of(centres.iter().copied());
-        ConvexShape::of_points(&[min, max])?;
+        if centres.is_empty() {
+            return Err(ShapeError::Empty);
+        }
+        let is_far = |p: &[f64; 3]| !p.iter().all(|x| x.abs() <= 1e9);
+        if let Some(vertex) = centres.iter().position(is_far) {
+            return Err(ShapeError::OutOfRange { vertex });
+        }
         let core = match half {
             [0.0, 0.0, 0.0] => ConvexShape::of_points(&[[0.0; 3]])?,
             half => ConvexShape::of_points(&corners(half))?,
@@ -173,14 +177,13 @@ impl Obstacle {
         for size in half_extents {
             check_size(name, size)?;
         }
-        Self::swept(name, pose, &corners(half_extents), 0.0)
-            .map(|one| one.of(Form::Box(half_extents)))
+        Self::swept(name, pose, &corners(half_extents), 0.0, Form::Box(half_extents))
     }
 
     /// A sphere: its centre and radius, in metres.
     pub fn sphere(name: &str, centre: [f64; 3], radius: f64) -> Result<Self, RobotError> {
-        let made = Self::swept(name, Translation3::from(centre).into(), &[[0.0; 3]], radius);
-        made.map(|one| one.of(Form::Sphere(radius)))
+        let pose = Translation3::from(centre).into();
+        Self::swept(name, pose, &[[0.0; 3]], radius, Form::Sphere(radius))
     }
 
     /// A capsule: all points within `radius` of a segment along the z axis of its frame, from `-half_length` to
@@ -193,8 +196,7 @@ impl Obstacle {
     ) -> Result<Self, RobotError> {
         check_size(name, half_length)?;
         let ends = [-half_length, half_length].map(|z| [0.0, 0.0, z]);
-        let form = Form::Capsule { radius, half: half_length };
-        Self::swept(name, pose, &ends, radius).map(|one| one.of(form))
+        Self::swept(name, pose, &ends, radius, Form::Capsule { radius, half: half_length })
     }
 
     /// A cylinder along the z axis of its frame, from `-half_length` to `half_length`. It is approximated by a
@@ -210,12 +212,12 @@ impl Obstacle {
         check_size(name, half_length)?;
         let cylinder = Primitive::Cylinder { radius, half: half_length };
         let form = Form::Cylinder { radius, half: half_length };
-        Self::swept(name, pose, &cylinder.core(Prism::Around).0, 0.0).map(|one| one.of(form))
+        Self::swept(name, pose, &cylinder.core(Prism::Around).0, 0.0, form)
     }
 
     /// The convex hull of points, in metres.
     pub fn hull(name: &str, pose: Isometry3<f64>, points: &[[f64; 3]]) -> Result<Self, RobotError> {
-        Self::swept(name, pose, points, 0.0)
+        Self::swept(name, pose, points, 0.0, Form::Parts)
     }
 
     /// A mesh, decomposed into convex pieces as `urdd generate` does for links, at the same cost. Cavities remain as
@@ -241,7 +243,9 @@ impl Obstacle {
         points: &[[f64; 3]],
         radius: f64,
     ) -> Result<Self, RobotError> {
-        Self::copied(name, pose, [0.0; 3], radius, points.to_vec())
+        Self::whole(name, pose, radius, Form::Parts, || {
+            Part::of_copies([0.0; 3], radius, points.to_vec())
+        })
     }
 
     /// A field of heights over the x-y plane of its frame. Cell (`row`, `column`) is a column with the sizes `cell` (m) along x
@@ -271,7 +275,7 @@ impl Obstacle {
             [column as f64 * cell[0], row as f64 * cell[1], height - half[2]]
         };
         let centres = heights.iter().enumerate().map(centre).collect();
-        Self::copied(name, pose, half, 0.0, centres)
+        Self::whole(name, pose, 0.0, Form::Parts, || Part::of_copies(half, 0.0, centres))
     }
 
     /// The same body with its frame at another pose. Nothing is prepared again: the two share their shapes. The frame of
@@ -312,41 +316,22 @@ impl Obstacle {
         pose: Isometry3<f64>,
         points: &[[f64; 3]],
         radius: f64,
+        form: Form,
     ) -> Result<Self, RobotError> {
-        check_size(name, radius)?;
-        check_pose(name, &pose)?;
-        let part = Part::new(points.into(), radius).map_err(|error| fault(name, &error))?;
-        Ok(Self::whole(name, pose, part))
+        Self::whole(name, pose, radius, form, || Part::new(points.into(), radius))
     }
 
-    fn copied(
+    fn whole(
         name: &str,
         pose: Isometry3<f64>,
-        half: [f64; 3],
         radius: f64,
-        centres: Vec<[f64; 3]>,
+        form: Form,
+        part: impl FnOnce() -> Result<Part, ShapeError>,
     ) -> Result<Self, RobotError> {
         check_size(name, radius)?;
         check_pose(name, &pose)?;
-        let fail = |error: ShapeError| fault(name, &error);
-        if centres.is_empty() {
-            return Err(fail(ShapeError::Empty));
-        }
-        let is_far = |p: &[f64; 3]| !p.iter().all(|x| x.abs() <= 1e9);
-        if let Some(vertex) = centres.iter().position(is_far) {
-            return Err(fail(ShapeError::OutOfRange { vertex }));
-        }
-        let part = Part::of_copies(half, radius, centres).map_err(fail)?;
-        Ok(Self::whole(name, pose, part))
-    }
-
-    fn whole(name: &str, pose: Isometry3<f64>, part: Part) -> Self {
-        let (name, parts, ignored) = (Arc::from(name), [part].into(), Arc::default());
-        Self { name, pose, parts, form: Form::Parts, ignored }
-    }
-
-    fn of(self, form: Form) -> Self {
-        Self { form, ..self }
+        let parts = [part().map_err(|error| fault(name, &error))?].into();
+        Ok(Self { name: name.into(), pose, parts, form, ignored: Arc::default() })
     }
 }
 

@@ -1,18 +1,22 @@
-//! A robot, opened: its modules, read on demand.
+//! A robot, opened: its modules, read on demand; the names of its parts; and its source URDF: as data, its text, its limits.
 
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
-use super::error::RobotError;
-use super::kept::{Closure, Configurations, LinkMass, LinkShape, Motion};
+use crate::error::RobotError;
+use crate::kept::{Closure, Configurations, LinkMass, LinkShape, Motion};
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::{Source, is_urdd};
+use urdd_document::carried_urdf::read_file;
 use urdd_document::kept::{Kept, keep};
 use urdd_document::urdd::Urdd;
 use urdd_format::loops::LoopsModule;
 use urdd_format::named_configurations::NamedConfiguration;
-use urdd_format::registry::{ModuleKind, Profile};
+use urdd_format::nearest::nearest;
+use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
+use urdd_format::root_metadata;
 use urdd_format::shape_kind::ShapeKind;
+use urdd_format::urdf::UrdfModule;
 
 /// A robot, described by a URDD.
 ///
@@ -182,5 +186,142 @@ pub(super) fn usable(part: &Urdd, kind: ModuleKind) -> Result<(), RobotError> {
                 .escape_debug()
                 .to_string(),
         }),
+    }
+}
+
+/// Names of links, joints and DOFs, in the order of their indices.
+///
+/// Each method fails if `chain_module` or `dof_module` is missing or unusable, and one that is given a name with
+/// [`RobotError::Unknown`] if there is none such, with the nearest name.
+impl Robot {
+    /// The name of each link.
+    pub fn link_names(&self) -> Result<&[String], RobotError> {
+        Ok(&self.motion()?.links)
+    }
+
+    /// The index of the root link, whose frame poses are in.
+    pub fn root_link(&self) -> Result<usize, RobotError> {
+        Ok(self.motion()?.kinematics.root())
+    }
+
+    /// The index of a link.
+    pub fn link(&self, name: &str) -> Result<usize, RobotError> {
+        index("link", self.link_names()?, name)
+    }
+
+    /// The name of each joint.
+    pub fn joint_names(&self) -> Result<&[String], RobotError> {
+        Ok(&self.motion()?.joints)
+    }
+
+    /// The index of a joint.
+    pub fn joint(&self, name: &str) -> Result<usize, RobotError> {
+        index("joint", self.joint_names()?, name)
+    }
+
+    /// The name of each DOF: that of its joint, with the coordinate if the joint has several DOFs.
+    pub fn dof_names(&self) -> Result<&[String], RobotError> {
+        Ok(&self.motion()?.dofs)
+    }
+
+    /// The index of a DOF.
+    pub fn dof(&self, name: &str) -> Result<usize, RobotError> {
+        index("DOF", self.dof_names()?, name)
+    }
+
+    /// The unit of each DOF: `rad` or `m`.
+    pub fn dof_units(&self) -> Result<&[&'static str], RobotError> {
+        Ok(&self.motion()?.units)
+    }
+}
+
+/// # Errors
+/// [`RobotError::OutOfRange`] if there are at most `link` links.
+pub(super) fn check_link(link: usize, count: usize) -> Result<(), RobotError> {
+    match link < count {
+        true => Ok(()),
+        false => Err(RobotError::OutOfRange { what: "link", index: link, count }),
+    }
+}
+
+pub(super) fn index(
+    what: &'static str,
+    names: &[impl AsRef<str>],
+    name: &str,
+) -> Result<usize, RobotError> {
+    names.iter().position(|known| known.as_ref() == name).ok_or_else(|| RobotError::Unknown {
+        what,
+        name: name.to_owned(),
+        nearest: nearest(names.iter().map(AsRef::as_ref), name),
+    })
+}
+
+/// The file that a URDD was generated from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SourceFile {
+    /// The file's path in the URDD.
+    pub path: String,
+    /// The SHA-256 of its content, as 64 hexadecimal digits.
+    pub sha256: String,
+}
+
+impl Robot {
+    /// The robot's URDF as data: links with mass, visuals and collisions, joints with limits. Link and joint indices
+    /// refer to this order. Zeros that a legacy URDD writes for missing values are absent here.
+    ///
+    /// # Errors
+    /// If `urdf_module` is missing or unusable.
+    pub fn description(&self) -> Result<UrdfModule, RobotError> {
+        let part = self.part(&[ModuleKind::Urdf])?;
+        part.description().cloned().ok_or(RobotError::Missing(ModuleKind::Urdf))
+    }
+
+    /// The source URDF that the URDD includes, according to its metadata. `None` if there is none, or in a legacy URDD.
+    ///
+    /// # Errors
+    /// If the files cannot be listed.
+    pub fn source(&self) -> Result<Option<SourceFile>, RobotError> {
+        let part = self.part_as_it_is(&[])?;
+        let source = part.metadata().and_then(|metadata| metadata.source.as_ref());
+        Ok(source.map(|root_metadata::Source::Urdf(file)| SourceFile {
+            path: file.path.clone(),
+            sha256: file.sha256.to_string(),
+        }))
+    }
+
+    /// The text of the source URDF. `None` if there is none, or it cannot be read.
+    ///
+    /// # Errors
+    /// If the files cannot be listed, or this one changed on disk.
+    pub fn source_text(&self) -> Result<Option<String>, RobotError> {
+        let Some(file) = self.source()? else { return Ok(None) };
+        match read_file(self.root(), &file.path) {
+            Err(ReadError::Changed) => Err(RobotError::Changed(self.folder_name())),
+            read => Ok(read.ok().map(|read| read.text)),
+        }
+    }
+}
+
+/// Each method fails if `bounds_module` is missing or unusable, or that of a legacy URDD, which has neither.
+impl Robot {
+    /// The largest speed of each DOF, rad/s or m/s, as the source states it; infinite where it states none.
+    pub fn velocity_limits(&self) -> Result<&[f64], RobotError> {
+        Ok(&self.limits()?[0])
+    }
+
+    /// The largest effort of each DOF, N m or N, as the source states it; infinite where it states none.
+    pub fn effort_limits(&self) -> Result<&[f64], RobotError> {
+        Ok(&self.limits()?[1])
+    }
+
+    fn limits(&self) -> Result<&[Vec<f64>; 2], RobotError> {
+        keep(&self.limits, || {
+            let part = self.part(&[ModuleKind::Bounds])?;
+            let Some(ModuleDocument::Bounds(bounds)) = part.document_v1(ModuleKind::Bounds) else {
+                return Err(RobotError::Missing(ModuleKind::Bounds));
+            };
+            let limits = [&bounds.dof_velocity_limits, &bounds.dof_effort_limits];
+            Ok(limits.map(|all| all.iter().map(|limit| limit.unwrap_or(f64::INFINITY)).collect()))
+        })
     }
 }

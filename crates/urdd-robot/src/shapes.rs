@@ -57,7 +57,6 @@ fn solid(volume: Volume) -> Solid {
     }
 }
 
-/// The meshes of one module.
 struct Meshes<'a> {
     part: &'a Urdd,
     meshes: meshes::Meshes<'a>,
@@ -106,7 +105,6 @@ impl<'a> Meshes<'a> {
         of_format.or_else(|| paths.next()).ok_or(RobotError::Missing(self.meshes.kind))
     }
 
-    /// Reads one mesh.
     fn read(&self, link: usize, piece: usize) -> Result<Mesh, RobotError> {
         let path = self.path(link, piece, self.format)?;
         let mut mesh = read(self.part, self.meshes.profile, path.path, GltfUp::Keep)?.merged();

@@ -14,13 +14,13 @@ fn matrix(k: usize) -> [f64; 16] {
     let turn = UnitQuaternion::from_euler_angles(x, 0.4 * x, 2.0 * x);
     let pose = Isometry3::from_parts(Translation3::new(0.5 - 0.1 * x, 0.1 * x, 0.4), turn);
     let mut matrix = [0.0; 16];
-    urdd_kinematics::pose_matrix::write_matrix(&pose, &mut matrix);
+    urdd_kinematics::pose::write_matrix(&pose, &mut matrix);
     matrix
 }
 
 /// What C makes of it.
 fn pose(k: usize) -> Isometry3<f64> {
-    urdd_kinematics::pose_matrix::pose(&matrix(k)).expect("a pose")
+    urdd_kinematics::pose::pose(&matrix(k)).expect("a pose")
 }
 
 /// The arm, a ball on its torch, and boxes, through C and in Rust.

@@ -14,7 +14,7 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::support::Support;
+use crate::convex::shape::Support;
 use crate::lanes::{LANES, Mask, Num, Pose, Vec3, select, splat};
 
 /// Maximum error of distances, metres: the upper and lower bound differ by no more. For shapes or offsets beyond 10 km
@@ -283,7 +283,6 @@ fn face<S: Simd>(
     (inside, height * k, k)
 }
 
-/// The nearest point of the segment from `w` to `s`.
 #[inline(always)]
 pub(crate) fn segment<S: Simd>(simd: S, w: Vec3<S>, s: Vec3<S>) -> Nearest<S> {
     let e = s - w;
@@ -296,7 +295,6 @@ pub(crate) fn segment<S: Simd>(simd: S, w: Vec3<S>, s: Vec3<S>) -> Nearest<S> {
     }
 }
 
-/// The nearest point of the triangle of `w` and `s`.
 #[inline(always)]
 pub(crate) fn triangle<S: Simd>(simd: S, w: Vec3<S>, s: [Vec3<S>; 2]) -> Nearest<S> {
     let e = [s[0] - w, s[1] - w];
@@ -330,7 +328,6 @@ pub(crate) fn triangle<S: Simd>(simd: S, w: Vec3<S>, s: [Vec3<S>; 2]) -> Nearest
 /// as where a feature with fewer vertices repeats one. What is nearest is then in a face.
 const FLAT: f64 = 3e-14;
 
-/// The nearest point of the tetrahedron of `w` and `s`.
 #[inline(always)]
 pub(crate) fn tetrahedron<S: Simd>(simd: S, w: Vec3<S>, s: [Vec3<S>; 3]) -> Nearest<S> {
     let zero = splat(simd, 0.0);

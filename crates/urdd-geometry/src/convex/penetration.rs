@@ -10,10 +10,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::across::PlacedPair;
 use super::gjk::TOLERANCE;
-use crate::hull::facets::triangulate_flat;
-use crate::hull::predicates::{Point, in_range};
-use crate::hull::quickhull::{self, Growing, Start};
-use crate::hull::{ConvexHull, HullError};
+use crate::hull::quickhull::{self, Growing, Point, Start, in_range};
+use crate::hull::{ConvexHull, HullError, triangulate_flat};
 
 /// The least translation that separates two shapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,7 +115,6 @@ pub fn penetration(pair: &PlacedPair) -> Option<Penetration> {
     best
 }
 
-/// A triangle of the polytope.
 struct Face {
     normal: Vector3<f64>,
     /// Of its plane from the origin, negative if the origin is outside.

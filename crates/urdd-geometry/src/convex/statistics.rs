@@ -6,8 +6,7 @@ use fearless_simd::Level;
 use rayon::prelude::*;
 
 use super::gjk::EXACT;
-use super::kernel::Shape;
-use super::motion::{Motion, PoseLanes};
+use super::samples::{Motion, PoseLanes, Shape};
 use crate::lanes::LANES;
 
 /// A shape and the index of its body.

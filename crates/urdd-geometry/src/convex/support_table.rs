@@ -72,7 +72,6 @@ impl SupportTable {
         Self { side, cells, blocks }
     }
 
-    /// Cells along one side of the map.
     #[inline(always)]
     pub fn side(&self) -> usize {
         self.side

@@ -180,7 +180,6 @@ fn widened(splinter: ConvexHull) -> ConvexHull {
     ConvexHull::new(&corners).unwrap_or(splinter)
 }
 
-/// Whether each triangle of a mesh is thin.
 pub(super) fn is_thin(mesh: &Mesh) -> bool {
     let height = THIN * extent(mesh);
     mesh.triangles.iter().all(|triangle| surface::is_thin(mesh.corners(*triangle), height))

@@ -169,7 +169,6 @@ const ROOTS: usize = 3;
 /// Normals with a cosine above this count as parallel.
 const PARALLEL: f64 = 0.99;
 
-/// A part and its deep faces.
 #[derive(Clone)]
 struct Deep {
     part: Part,
@@ -216,7 +215,6 @@ impl Deep {
     }
 }
 
-/// A tree of cuts with the parts at its leaves.
 struct Tree {
     nodes: Vec<Node>,
     parts: Vec<Deep>,

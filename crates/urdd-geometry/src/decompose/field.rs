@@ -210,7 +210,6 @@ impl Field {
         [0, 1, 2].map(|a| self.low[a] + self.cell * i[a] as f64)
     }
 
-    /// The nearest triangle of each node.
     fn nearest(&self, part: &Part) -> Vec<u32> {
         let [nx, ny, nz] = self.count;
         let mut best = vec![(f64::INFINITY, u32::MAX); nx * ny * nz];

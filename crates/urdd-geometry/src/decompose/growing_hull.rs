@@ -209,7 +209,6 @@ struct Block {
 const NOTHING: Block =
     Block { x: [0.0; WIDTH], y: [0.0; WIDTH], z: [0.0; WIDTH], offset: [EMPTY; WIDTH] };
 
-/// Slots for planes, some of them empty.
 #[derive(Clone, Debug, Default)]
 struct Planes {
     /// The last one is padded with empty slots.

@@ -34,7 +34,6 @@ mod choose;
 mod cut;
 mod field;
 mod growing_hull;
-mod merge;
 mod part;
 mod search;
 mod slices;
@@ -141,12 +140,12 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
     let limits =
         search::Limits { most: most.saturating_add(most / 2), fat: settings.fat_tolerance, enough };
     let joined = |found: search::Search| {
-        let limits = merge::Limits {
+        let limits = search::MergeLimits {
             most,
             free: settings.fat_tolerance * found.area,
             enough: enough * found.area,
         };
-        (merge::merge(found.leaves, &places, &limits), found.nodes)
+        (search::merge(found.leaves, &places, &limits), found.nodes)
     };
     let first = search::search(part.clone(), &places, &limits);
     let area = first.area;

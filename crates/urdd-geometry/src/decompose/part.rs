@@ -8,12 +8,10 @@ pub(super) fn lerp(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
     [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])]
 }
 
-/// The mean of a triangle's corners.
 pub(super) fn centroid([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| (a[k] + b[k] + c[k]) / 3.0)
 }
 
-/// Distance of a point from a triangle.
 pub(super) fn distance_to_triangle(p: [f64; 3], triangle: [[f64; 3]; 3]) -> f64 {
     norm(sub(p, nearest_on_triangle(p, triangle)))
 }

@@ -39,7 +39,6 @@ pub(super) struct Places {
     pub reach: f64,
     /// Points this near to a plane count as in it.
     pub eps: f64,
-    /// Distances to the surface.
     pub field: Field,
 }
 
@@ -271,19 +270,15 @@ impl Scaling {
     }
 }
 
-/// Directions per row.
 const WIDTH: usize = 16;
 
-/// Number of rows.
 const ROWS: usize = 3;
 
-/// Number of directions.
 const COUNT: usize = ROWS * WIDTH;
 
 /// One value for each direction.
 type Row<T> = [[T; WIDTH]; ROWS];
 
-/// The x, y and z coordinates.
 type Directions = [Row<f32>; 3];
 
 /// The 26 directions of a cube's faces, corners and edges, and evenly spread ones for the rest.

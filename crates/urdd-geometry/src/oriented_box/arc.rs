@@ -32,11 +32,9 @@ impl Known {
 pub struct Stretch {
     /// Expected lower bound of the volumes on the stretch.
     pub promise: f64,
-    /// Index of the arc.
     pub arc: usize,
     /// Start and end: 0 and 1 are the ends of the arc.
     pub parts: [f64; 2],
-    /// Known bounds at its ends.
     pub ends: [Known; 2],
 }
 
@@ -78,7 +76,7 @@ pub struct Arc {
     from: Vector3<f64>,
     /// Perpendicular to `from`, towards the other end.
     towards: Vector3<f64>,
-    /// Angle between the ends, radians.
+    /// Between the ends, radians.
     pub angle: f64,
 }
 

@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 
-use crate::hull::facets::monotone_chain;
+use crate::hull::monotone_chain;
 
 type Point2 = [f64; 2];
 

@@ -5,8 +5,7 @@ use std::fmt;
 
 use nalgebra::Matrix4;
 
-use super::error::{Failure, Fault, NoteCode, Notes};
-use super::scene::{Format, Options, Part, Scene, Texture};
+use super::scene::{Failure, Fault, Format, NoteCode, Notes, Options, Part, Scene, Texture};
 use crate::mesh::Mesh;
 
 /// A scene under construction: one part per material, in the order of first use.
@@ -24,7 +23,6 @@ pub(super) struct Assembly {
 /// materials. A part takes some hundred bytes of memory, for the ten bytes in the file that name it.
 pub(super) const MAX_PARTS: usize = 4096;
 
-/// Name, colour and texture of a material.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Material {
     pub(super) name: Option<String>,
@@ -106,7 +104,6 @@ impl Assembly {
         self.notes.add(NoteCode::UnusedVertices, text);
     }
 
-    /// Checks a number of triangles against the limit.
     pub(super) fn check_triangles(&self, count: usize) -> Result<(), Failure> {
         within("triangles", count, self.options.max_triangles)
     }
@@ -137,7 +134,6 @@ impl Assembly {
 pub(super) const FIRST_SCENE: &str =
     "the file does not say which scene to show; the first one was used";
 
-/// Note for materials beyond [`MAX_PARTS`].
 pub(super) const TOO_MANY_PARTS: &str =
     "more than 4096 materials; faces with any other material are read without one";
 
@@ -147,7 +143,6 @@ fn look_of(material: &Material) -> Look {
     (material.name.clone(), material.color.map(|color| color.map(f64::to_bits)), texture)
 }
 
-/// Checks a number of items against a limit.
 pub(super) fn within(what: &'static str, count: usize, limit: usize) -> Result<(), Failure> {
     if count > limit { Err(Fault::TooLarge { what, limit }.into()) } else { Ok(()) }
 }
@@ -160,9 +155,7 @@ pub(super) struct Nesting<Id> {
 }
 
 impl<Id: PartialEq> Nesting<Id> {
-    /// Maximum nesting depth of nodes.
     const DEEPEST: usize = 200;
-    /// Maximum number of node visits.
     const MAX_NODES: usize = 100_000;
 
     pub(super) fn new() -> Self {

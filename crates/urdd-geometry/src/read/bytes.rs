@@ -1,8 +1,7 @@
 //! Raw bytes: the mesh format, from the content, or from the extension if the content is ambiguous; and the words and
 //! numbers of a text.
 
-use super::error::Fault;
-use super::scene::Format;
+use super::scene::{Fault, Format};
 
 /// Number of leading bytes searched for format markers. Long comments may precede the root element of XML.
 const HEAD: usize = 64 * 1024;

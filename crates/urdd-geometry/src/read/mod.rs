@@ -48,17 +48,17 @@
 mod assembly;
 mod bytes;
 mod collada;
-mod error;
 mod gltf;
 mod obj;
 mod scene;
 mod stl;
 
-pub use error::{Fault, MeshError, Note, NoteCode, Place};
-pub use scene::{Format, GltfUp, Options, Part, Scene, Texture};
+pub use scene::{
+    Fault, Format, GltfUp, MeshError, Note, NoteCode, Options, Part, Place, Scene, Texture,
+};
 
 use assembly::Assembly;
-use error::Failure;
+use scene::Failure;
 
 /// Reads a mesh file as a URDF's mesh element uses it.
 ///

@@ -9,8 +9,7 @@ use super::assembly::{
     Assembly, MAX_PARTS, Material, Picker, TOO_MANY_PARTS, UvCorners, mark, within,
 };
 use super::bytes::{Words, float};
-use super::error::{Failure, NoteCode, Place};
-use super::scene::Texture;
+use super::scene::{Failure, NoteCode, Place, Texture};
 use crate::polygon::Splitter;
 
 /// Reads OBJ. Groups faces by material: objects, groups and smoothing groups do not affect the surface.
@@ -76,7 +75,6 @@ pub(super) fn read(
     Ok(())
 }
 
-/// The faces of one material.
 #[derive(Default)]
 struct Group {
     material: Option<String>,
@@ -99,11 +97,9 @@ struct File {
     too_many: bool,
     group_of: HashMap<String, usize>,
     splitter: Splitter,
-    /// The corners of the current face.
     corners: Vec<u32>,
     /// Group and triangles of each face with a vertex that was not there yet.
     ahead: Vec<(usize, Range<usize>)>,
-    /// Number of dropped faces.
     bad: usize,
 }
 
@@ -265,7 +261,6 @@ fn beside(library: &str, texture: &str) -> String {
     }
 }
 
-/// A material of the library.
 #[derive(Debug)]
 struct Entry {
     name: String,

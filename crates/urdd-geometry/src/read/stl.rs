@@ -4,7 +4,7 @@ use nalgebra::Matrix4;
 
 use super::assembly::{Assembly, Material, within};
 use super::bytes::{Words, skip_byte_order_mark};
-use super::error::{Failure, Fault, NoteCode, Place};
+use super::scene::{Failure, Fault, NoteCode, Place};
 use crate::mesh::Mesh;
 use crate::polygon::fan;
 
@@ -16,29 +16,20 @@ const RECORD: usize = 50;
 /// The count is used if there is data for it. Some writers never fill in the count: if it is 0, all complete records
 /// are read. A count beyond the end means a truncated file or a placeholder: the complete records are read.
 pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
-    let (Some(count), Some(data)) = (bytes.get(80..HEADER), bytes.get(HEADER..)) else {
-        return Err(Fault::Truncated(format!(
-            "a binary STL has {HEADER} bytes before its triangles, but this file has {}",
-            bytes.len()
-        ))
-        .into());
-    };
-    let count = count.iter().rev().fold(0_u64, |value, byte| value << 8 | u64::from(*byte));
+    // `format_of` has found a whole header.
+    let (count, data) = (word(&bytes[80..]) as usize, &bytes[HEADER..]);
     let whole = data.len() / RECORD;
-    let used = match usize::try_from(count) {
-        Ok(0) | Err(_) => whole,
-        Ok(count) => count.min(whole),
-    };
+    let used = if count == 0 { whole } else { count.min(whole) };
     if used == 0 && count > 0 {
         let text = format!("the header states {count} triangles, but none is complete");
         return Err(Failure::from(Fault::Truncated(text)).at(|| Place::Byte(bytes.len())));
     }
-    if count > whole as u64 {
+    if count > whole {
         let text = format!(
             "the file is cut off: it contains {whole} of the {count} triangles that its header states"
         );
         assembly.notes.add(NoteCode::CutOff, text);
-    } else if used as u64 != count {
+    } else if used != count {
         let text = format!("the header states 0 triangles, but the file contains {used}");
         assembly.notes.add(NoteCode::WrongCount, text);
     } else if data.len() != used * RECORD {
@@ -50,8 +41,9 @@ pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), F
         Mesh { vertices: Vec::with_capacity(used * 3), triangles: Vec::with_capacity(used) };
     for record in data.chunks_exact(RECORD).take(used) {
         // Skip the stored normal: it is often 0, and the corners determine it.
-        let corner =
-            |at: usize| std::array::from_fn(|axis| f64::from(binary32(&record[at + 4 * axis..])));
+        let corner = |at: usize| {
+            std::array::from_fn(|axis| f64::from(f32::from_bits(word(&record[at + 4 * axis..]))))
+        };
         push_triangle(&mut mesh, [corner(12), corner(24), corner(36)])?;
     }
     assembly.add(&mesh, &Matrix4::identity(), &Material::default())
@@ -100,6 +92,6 @@ fn push_triangle(mesh: &mut Mesh, corners: [[f64; 3]; 3]) -> Result<(), Failure>
     Ok(())
 }
 
-fn binary32(bytes: &[u8]) -> f32 {
-    f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])
+fn word(bytes: &[u8]) -> u32 {
+    u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])
 }

@@ -6,7 +6,6 @@
 //! only on the parts: it contains no time or machine name.
 
 mod glb;
-mod normals;
 
 pub use glb::{glb, smooth_glb};
 

@@ -11,9 +11,8 @@ use nalgebra::{Isometry3, Vector6};
 
 use super::descent::{Descend, Descent, STEP};
 use super::path::{Path, RangeKind};
-use crate::cholesky;
 use crate::forward::ForwardKinematics;
-use crate::loops::{Loops, Scratch};
+use crate::loops::{Loops, Scratch, solve_cholesky};
 
 /// How much more an equation of a loop weighs than the goal, squared. What is left of it is closed after the step.
 const WEIGHT: f64 = 1e6;
@@ -138,7 +137,7 @@ impl<'a> Descend<'a> for ClosedDescent<'a> {
             }
             right.clear();
             right.extend(free.iter().map(|k| wanted[*k]));
-            if !cholesky::solve(matrix, added, right) {
+            if !solve_cholesky(matrix, added, right) {
                 return;
             }
             let largest = right.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -174,6 +173,6 @@ impl<'a> Descend<'a> for ClosedDescent<'a> {
         self.matrix.clear();
         self.matrix.extend(self.normal.iter().map(|value| weight * value));
         let mut free: Vec<f64> = dofs.iter().map(|dof| posture[*dof] - q[*dof]).collect();
-        cholesky::solve(&mut self.matrix, 1.0, &mut free).then_some(free)
+        solve_cholesky(&mut self.matrix, 1.0, &mut free).then_some(free)
     }
 }

@@ -34,7 +34,6 @@ const ENDING: f64 = 0.7;
 /// A solution whose free way is at most this long, rad or m, ends at a known one that is as near.
 const NEAR: f64 = 0.1;
 
-/// The result of a descent.
 #[derive(Clone)]
 pub(super) struct Found {
     pub configuration: Vec<f64>,
@@ -44,7 +43,6 @@ pub(super) struct Found {
     pub reached: bool,
 }
 
-/// A descent to a goal.
 pub(super) trait Descend<'a> {
     /// The goal, the error and the Jacobian.
     fn tree(&mut self) -> &mut Descent<'a>;
@@ -58,11 +56,6 @@ pub(super) trait Descend<'a> {
     /// The part of the way to a posture that is free at a solution, for each DOF of the path; `None` if there is none that
     /// can be computed.
     fn freed(&mut self, q: &[f64], posture: &[f64]) -> Option<Vec<f64>>;
-
-    /// Iterations so far.
-    fn iterations(&mut self) -> usize {
-        self.tree().iterations
-    }
 
     /// Descends from a configuration within bounds.
     fn from(&mut self, start: Vec<f64>) -> Found {
@@ -177,7 +170,6 @@ pub(super) struct Descent<'a> {
     near: &'a [f64],
     /// The length, in metres, that weighs as much as a radian.
     pub length: f64,
-    /// Iterations so far.
     pub iterations: usize,
     place: Place,
     pub jacobian: Vec<Vector6<f64>>,

@@ -157,7 +157,7 @@ impl ForwardKinematics {
             restarts: 0,
             refused: None,
         };
-        let (best, mut iterations) = (search.best(&first), search.descent.iterations());
+        let (best, mut iterations) = (search.best(&first), search.descent.tree().iterations);
         // Whether any is reached within other bounds, from the best, then from random ones.
         let mut reaches = |bounds: &[[f64; 2]], loops: Option<&Loops>| {
             let path = Path::new(self, goal, bounds, loops);
@@ -169,7 +169,7 @@ impl ForwardKinematics {
             });
             let mut begins = std::iter::once(best.configuration.clone()).chain(others);
             let reaches = begins.any(|begin| !(conditions.stops)() && descent.from(begin).reached);
-            iterations += descent.iterations();
+            iterations += descent.tree().iterations;
             reaches
         };
         let verdict = match (best.reached, search.refused.is_some()) {

@@ -98,11 +98,9 @@ pub(super) struct Path<'a> {
     bounds: Vec<[f64; 2]>,
     /// The range of values of each of `dofs`.
     pub kinds: Vec<RangeKind>,
-    /// The DOFs of rotation vectors.
     vectors: Vec<[usize; 3]>,
 }
 
-/// The range of values of a DOF.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum RangeKind {
     /// Within the bounds.

@@ -10,7 +10,6 @@ use crate::pose::to_isometry;
 use urdd_format::dof::{DofModule, Quantity};
 use urdd_format::index::DofIdx;
 use urdd_format::loops::{LoopKind, LoopsModule};
-use urdd_format::pose::Pose;
 use urdd_format::registry::ModuleKind;
 
 /// Most joints in all loops together: 160 MB.
@@ -108,7 +107,7 @@ impl Loops {
                 if link.get() >= kinematics.num_links() {
                     return Err(fault(link_at, format!("there is no link {}", link.get())));
                 }
-                *frame = isometry(pose, pose_at)?;
+                *frame = to_isometry(pose).map_err(|error| fault(pose_at, error.to_string()))?;
             }
             let links = [one.link_a_idx.get(), one.link_b_idx.get()];
             let steps = kinematics.steps_between(links);
@@ -241,10 +240,6 @@ impl Together {
             self.0[of] = with;
         }
     }
-}
-
-fn isometry(pose: &Pose, pointer: String) -> Result<Isometry3<f64>, KinematicsError> {
-    to_isometry(pose).map_err(|error| fault(pointer, error.to_string()))
 }
 
 fn fault(pointer: String, fault: String) -> KinematicsError {

@@ -1,7 +1,15 @@
 //! Chooses the margins of the pairs.
 
 use super::labels::Labels;
-use super::settings::{FIRST_MISSES, LEVELS, MISSES, TAIL};
+
+/// The fraction of collisions in the calibration set that may be missed.
+const MISSES: f64 = 0.005;
+/// Maximum number of a pair's contacts with the highest outputs that form its tail.
+const TAIL: usize = 10;
+/// Expected misses of a pair at its first margin; each further level doubles them.
+const FIRST_MISSES: f64 = 0.02;
+/// Maximum number of margins to try per pair.
+const LEVELS: usize = 14;
 
 struct Pair {
     /// The configurations in which the output is at most the first margin, by descending output.

@@ -1,10 +1,9 @@
-//! The robot to train a model for, the network's inputs for it, and why there may be no model.
+//! The robot to train a model for, how much, the network's inputs for it, and why there may be no model.
 
 use std::collections::BTreeSet;
 
 use thiserror::Error;
 
-use super::settings::{CLIP, Effort};
 use urdd_directory::cancellation::Cancelled;
 use urdd_format::chain::ChainModule;
 use urdd_format::dof::{DofModule, Quantity};
@@ -18,6 +17,9 @@ use urdd_kinematics::{ConfigurationError, ConfigurationSpace, ForwardKinematics}
 
 /// Configurations in one block of work.
 pub(super) const BLOCK: usize = 64;
+
+/// Distances are clipped at this fraction of the largest distance between two hulls.
+const CLIP: f64 = 1.0 / 16.0;
 
 /// The robot to train a model for.
 pub struct Subject<'a> {
@@ -124,4 +126,28 @@ pub(super) fn model_inputs(subject: &Subject) -> Result<Vec<ModelInput>, NoModel
         }
     }
     Ok(inputs)
+}
+
+/// How much to train.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Effort {
+    /// Number of sampled configurations for training.
+    pub training: u32,
+    /// Number of sampled configurations for choosing margins and for early stopping.
+    pub calibration: u32,
+    /// Maximum number of epochs.
+    pub epochs: u32,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { training: 80_000, calibration: 20_000, epochs: 20 }
+    }
+}
+
+impl Effort {
+    /// The first sampled configuration of each part and its count. The parts follow each other from 0.
+    pub(super) fn ranges(self) -> [[u32; 2]; 2] {
+        [[0, self.training], [self.training, self.calibration]]
+    }
 }

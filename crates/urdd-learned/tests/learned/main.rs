@@ -4,4 +4,4 @@
 #![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod calibration;
-mod kernel;
+mod network;

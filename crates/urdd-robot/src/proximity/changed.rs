@@ -3,11 +3,11 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use super::body::Shape;
+use super::swept::Shape;
 use super::{Pair, Proximity};
 use crate::error::RobotError;
-use crate::names::check_link;
 use crate::obstacle::{Obstacle, fault};
+use crate::robot::check_link;
 
 impl Proximity {
     /// These shapes and an object that a link carries, such as a tool or what a gripper holds: every query then includes

@@ -8,7 +8,6 @@
 //! Bounding spheres, of each shape and of all shapes of a link, exclude distant pairs. They are computed from the
 //! shapes themselves, so a wrong box or sphere in the URDD cannot hide a collision between hulls or pieces.
 
-mod body;
 mod changed;
 mod query;
 mod swept;
@@ -19,10 +18,10 @@ use std::sync::Arc;
 use super::Robot;
 use super::error::RobotError;
 use super::kept::{Closure, Motion};
-use super::names::{check_link, index};
+use super::robot::{check_link, index};
 use super::shapes::ShapeKind;
 use super::skips::{PairStatistics, Skips};
-use super::workspace::Placed;
+use super::workspace::{Derivative, Placed};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::skips::HiddenContacts;
 use urdd_geometry::bounding_sphere::BoundingSphere;
@@ -30,9 +29,10 @@ use urdd_geometry::convex::Level;
 use urdd_geometry::convex::across::columns;
 use urdd_kinematics::Travel;
 
-pub(super) use body::{Shape, relative, to_root};
-pub use swept::{Gradient, Overlap, PairGradient};
-pub(super) use swept::{SweptPair, Waiting, in_root, penetration_of, toward, witnesses};
+pub use swept::{Gradient, Overlap};
+pub(super) use swept::{
+    Shape, SweptPair, Waiting, in_root, penetration_of, relative, to_root, toward, witnesses,
+};
 
 /// The distance between two shapes, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,6 +55,9 @@ pub struct PairDistance {
     /// same point, which is in both shapes.
     pub points: [[f64; 3]; 2],
 }
+
+/// The distance of a pair of the robot's shapes, and how it changes.
+pub type PairGradient = Gradient<PairDistance>;
 
 /// The shapes of one kind, prepared for distances.
 #[derive(Debug, Clone)]
@@ -280,7 +283,7 @@ impl Proximity {
             }
         }
         let count = self.motion.links.len();
-        self.spheres = (0..count).map(|link| body::about_link(shapes, link)).collect();
+        self.spheres = (0..count).map(|link| swept::about_link(shapes, link)).collect();
         self
     }
 
@@ -312,5 +315,33 @@ impl Proximity {
 
     pub(super) fn travel(&self, start: &[f64], end: &[f64]) -> Result<Travel<'_>, RobotError> {
         Ok(self.motion.kinematics.travel(start, end)?)
+    }
+
+    /// How fast two points of links, in the root link's frame, come apart in a direction with each DOF, m/rad or m/m.
+    /// Without a second link, the second point stays.
+    pub(crate) fn derivative<'a>(
+        &self,
+        configuration: &[f64],
+        placed: &Placed,
+        (a, b): (usize, Option<usize>),
+        points: [[f64; 3]; 2],
+        direction: [f64; 3],
+        memory: &'a mut Derivative,
+    ) -> &'a [f64] {
+        let kinematics = &self.motion.kinematics;
+        let dofs = kinematics.num_dofs();
+        memory.jacobian.resize(6 * dofs, 0.0);
+        memory.of_dofs.clear();
+        memory.of_dofs.resize(dofs, 0.0);
+        for (link, point, sign) in [(Some(a), points[0], -1.0), (b, points[1], 1.0)] {
+            let Some(link) = link else { continue };
+            let (poses, jacobian) = (&placed.poses, &mut memory.jacobian);
+            kinematics.jacobian_into(configuration, poses, link, &point.into(), jacobian);
+            for (sum, column) in memory.of_dofs.iter_mut().zip(jacobian.chunks_exact(6)) {
+                let speed: f64 = (0..3).map(|k| direction[k] * column[k]).sum();
+                *sum += sign * speed;
+            }
+        }
+        &memory.of_dofs
     }
 }

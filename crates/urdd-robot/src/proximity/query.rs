@@ -6,8 +6,7 @@ use std::sync::Arc;
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
-use super::body::relative;
-use super::swept::{SweptPair, Waiting};
+use super::swept::{SweptPair, Waiting, relative};
 use super::{Group, PairDistance, Proximity, Rounding};
 use crate::checked::Checked;
 use crate::error::RobotError;
@@ -112,13 +111,11 @@ impl Proximity {
         self.shapes[a].is_ball && self.shapes[b].is_ball
     }
 
-    /// The cores of a pair.
     fn cores(&self, pair: usize, b_in_a: [[f64; 3]; 4]) -> PlacedPair<'_> {
         let [a, b] = self.pairs[pair].shapes;
         PlacedPair { a: &self.shapes[a].core, b: &self.shapes[b].core, b_in_a }
     }
 
-    /// The sum of the radii of a pair.
     fn radii(&self, pair: usize) -> f64 {
         let [a, b] = self.pairs[pair].shapes;
         self.shapes[a].radius + self.shapes[b].radius

@@ -4,9 +4,9 @@ use std::cell::Cell;
 
 use fearless_simd::{Simd, dispatch, f64x8, prelude::*};
 
-use super::check::Asked;
-use super::model::{Model, Placed};
+use super::model::Model;
 use super::obstacles::Obstacles;
+use super::placed::{Asked, Placed};
 use crate::lanes::{LANES, WideRow};
 
 /// What is checked in each configuration.

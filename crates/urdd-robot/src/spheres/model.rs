@@ -5,12 +5,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use nalgebra::Point3;
 
 use super::level::{MOST, Sphere, SphereLevel};
-use super::run::Frames;
 use super::tape::{Frame, Place, ROUNDING, Step, StepMotion, Tape};
 use crate::error::RobotError;
 use crate::kept::Motion;
-use crate::lanes::Point;
-use crate::names::check_link;
+use crate::robot::check_link;
 use urdd_geometry::bounding_sphere::about_spheres;
 use urdd_geometry::convex::Level;
 use urdd_geometry::vector::{norm, sub};
@@ -285,36 +283,4 @@ fn model_ball(place: &Place, sphere: &Sphere, is_certain: bool) -> (Ball, f32) {
     let grown = if is_certain { 1.0 + 16.0 * ROUNDING } else { 1.0 };
     let radius = (sphere.radius + fixed) * grown;
     ([centre.x as f32, centre.y as f32, centre.z as f32, radius as f32], (of_slides * grown) as f32)
-}
-
-/// What a thread keeps from one block to the next.
-#[derive(Debug, Default)]
-pub struct Placed {
-    pub frames: Frames,
-    /// The centres of the spheres around clusters.
-    pub clusters: Vec<Point>,
-    /// The centres of the spheres around bodies, and whether they are there.
-    pub around: Vec<Point>,
-    pub is_around: Vec<bool>,
-    /// The centres of the spheres of each level.
-    pub centres: Vec<Vec<Point>>,
-    /// Whether those of each body are there.
-    pub is_placed: Vec<Vec<bool>>,
-}
-
-impl Placed {
-    pub fn fit(&mut self, model: &Model) {
-        self.frames.fit(&model.tape);
-        self.clusters.resize(model.clusters.len(), Point::default());
-        self.around.resize(model.bodies.len(), Point::default());
-        self.is_around.resize(model.bodies.len(), false);
-        self.centres.resize_with(model.levels.len(), Vec::new);
-        self.is_placed.resize_with(model.levels.len(), Vec::new);
-        for ((centres, is_placed), level) in
-            self.centres.iter_mut().zip(&mut self.is_placed).zip(&model.levels)
-        {
-            centres.resize(level.balls.len(), Point::default());
-            is_placed.resize(model.bodies.len(), false);
-        }
-    }
 }

@@ -2,22 +2,22 @@
 
 use std::sync::Arc;
 
+use arrayvec::ArrayVec;
 use fearless_simd::{Simd, prelude::*};
 use nalgebra::{Isometry3, Point3, UnitQuaternion};
 
-use super::check::{Asked, touch};
-use super::exact::{any_copy, convex};
-use super::model::{Ball, Model, Placed};
+use super::model::{Ball, Model};
+use super::placed::{Asked, Placed, touch};
 use super::tape::ROUNDING;
 use crate::copies::Copies;
 use crate::error::RobotError;
-use crate::lanes::{Vec3, bits, splat};
-use crate::names::index;
+use crate::lanes::{LANES, Row, Vec3, bits, splat};
 use crate::obstacle::{Form, Obstacle, Part, World, check_moves};
+use crate::robot::index;
+use urdd_geometry::convex::across::{self, PlacedPair};
 use urdd_geometry::convex::{ConvexShape, Level};
 use urdd_geometry::vector::norm;
 
-/// The obstacles of a world.
 #[derive(Debug, Clone, Default)]
 pub struct Obstacles {
     pub names: Vec<Arc<str>>,
@@ -132,13 +132,8 @@ impl Obstacles {
                     continue;
                 }
                 let radius = around[3] + slack;
-                let near = solid.touches(
-                    simd,
-                    model.level,
-                    centre,
-                    radius,
-                    Asked { lanes: near, any: false },
-                );
+                let asked_near = Asked { lanes: near, any: false };
+                let near = solid.touches(simd, model.level, centre, radius, asked_near);
                 if near == 0 {
                     continue;
                 }
@@ -298,7 +293,7 @@ impl Solid {
                     let lane = left.trailing_zeros() as usize;
                     left &= left - 1;
                     let point = [local[0].0[lane], local[1].0[lane], local[2].0[lane]];
-                    let touches = any_copy(simd, copies, point, reach + part.radius as f32);
+                    let touches = copies.any_touches(simd, point, reach + part.radius as f32);
                     found |= u8::from(touches) << lane;
                     if asked.is_done(found) {
                         break;
@@ -317,7 +312,34 @@ impl Solid {
     }
 }
 
-/// What an obstacle is made of.
+/// The lanes of `near` in which a sphere touches a convex part, exactly.
+#[inline(never)]
+fn convex(
+    level: Level,
+    part: &Part,
+    point: &ConvexShape,
+    pose: &Isometry3<f64>,
+    centre: &[Row; 3],
+    reach: f64,
+    near: u8,
+) -> u8 {
+    let mut lanes: ArrayVec<usize, LANES> = ArrayVec::new();
+    let mut pairs: ArrayVec<PlacedPair, LANES> = ArrayVec::new();
+    for lane in (0..LANES).filter(|lane| near >> lane & 1 != 0) {
+        let at = [0, 1, 2].map(|k| f64::from(centre[k].0[lane]));
+        let local = pose.inverse_transform_point(&Point3::from(at));
+        let [x, y, z] = [local.x, local.y, local.z];
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let b_in_a = [axes[0], axes[1], axes[2], [x, y, z]];
+        lanes.push(lane);
+        pairs.push(PlacedPair { a: &part.core, b: point, b_in_a });
+    }
+    let mut apart = [0.0; LANES];
+    across::distances(level, &pairs, &mut apart[..pairs.len()]);
+    let touches = lanes.iter().zip(apart).filter(|(_, apart)| *apart <= reach + part.radius);
+    touches.fold(0, |found, (lane, _)| found | 1 << lane)
+}
+
 fn kinds(one: &Obstacle) -> Result<Vec<Kind>, RobotError> {
     let kind = match one.form {
         Form::Box(half) => Kind::Box(half.map(|x| x as f32)),

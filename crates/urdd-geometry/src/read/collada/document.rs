@@ -7,22 +7,27 @@ use nalgebra::{Matrix4, Rotation3, Unit, Vector3};
 use percent_encoding::percent_decode_str;
 use urdd_xml::Node;
 
-use super::super::bytes::Words;
-use super::super::error::{Failure, Fault};
+use crate::read::bytes::Words;
+use crate::read::scene::{Failure, Fault};
 
-/// Elements by tag and id. Of those with the same tag and id, the first counts. The tag is part of the key because real
-/// files reuse ids across tags.
-pub(super) struct Elements<'a>(HashMap<(&'a str, &'a str), Node<'a, 'a>>);
+/// A document, or a part of one.
+pub(super) struct Document<'a> {
+    pub(super) root: Node<'a, 'a>,
+    /// Elements by tag and id. Of those with the same tag and id, the first counts. The tag is part of the key because real
+    /// files reuse ids across tags.
+    by_id: HashMap<(&'a str, &'a str), Node<'a, 'a>>,
+}
 
-impl<'a> Elements<'a> {
-    pub(super) fn new(nodes: impl Iterator<Item = Node<'a, 'a>>) -> Self {
+impl<'a> Document<'a> {
+    /// With the ids of these elements.
+    pub(super) fn new(root: Node<'a, 'a>, nodes: impl Iterator<Item = Node<'a, 'a>>) -> Self {
         let mut by_id = HashMap::new();
         for node in nodes.filter(Node::is_element) {
             if let Some(id) = node.attribute("id") {
                 by_id.entry((node.tag_name().name(), id)).or_insert(node);
             }
         }
-        Self(by_id)
+        Self { root, by_id }
     }
 
     /// The element with this tag that a document-internal URL references.
@@ -30,24 +35,7 @@ impl<'a> Elements<'a> {
         let url = url.trim();
         let id = url.strip_prefix('#').unwrap_or(url);
         // The keys have the document's lifetime; look up with a shorter one.
-        self.0.get(&(tag, id) as &(&str, &str)).copied()
-    }
-}
-
-/// A document.
-pub(super) struct Document<'a> {
-    pub(super) root: Node<'a, 'a>,
-    elements: Elements<'a>,
-}
-
-impl<'a> Document<'a> {
-    pub(super) fn new(root: Node<'a, 'a>) -> Self {
-        Self { root, elements: Elements::new(root.descendants()) }
-    }
-
-    /// The element with this tag that a document-internal URL references.
-    pub(super) fn find(&self, tag: &str, url: &str) -> Option<Node<'a, 'a>> {
-        self.elements.find(tag, url)
+        self.by_id.get(&(tag, id) as &(&str, &str)).copied()
     }
 
     /// The names of all image files, relative to the document.
@@ -70,7 +58,6 @@ pub(super) fn children<'a>(node: Node<'a, 'a>, tag: &'a str) -> impl Iterator<It
     node.children().filter(move |child| child.is_element() && child.tag_name().name() == tag)
 }
 
-/// The first child with this tag.
 pub(super) fn child<'a>(node: Node<'a, 'a>, tag: &'a str) -> Option<Node<'a, 'a>> {
     children(node, tag).next()
 }

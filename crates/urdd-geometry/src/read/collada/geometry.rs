@@ -4,28 +4,26 @@ use std::collections::HashMap;
 
 use urdd_xml::{Node, NodeId};
 
-use super::super::assembly::{Picker, UvCorners};
-use super::super::bytes::{Words, float};
-use super::super::error::{Failure, Fault, NoteCode, Notes};
-use super::super::scene::Options;
-use super::document::{Document, Elements, child, children, text};
+use super::document::{Document, child, children, text};
 use crate::mesh::Mesh;
 use crate::polygon::{Splitter, fan, strip};
+use crate::read::assembly::{Picker, UvCorners};
+use crate::read::bytes::{Words, float};
+use crate::read::scene::{Failure, Fault, NoteCode, Notes, Options};
 
 /// The positions, or the texture coordinates (true), of each source that was read, shared between meshes.
 type Read = HashMap<(NodeId, bool), Vec<[f64; 3]>>;
 
-/// Vertex positions of one mesh.
 struct Positions<'a, 'd> {
     document: &'d Document<'a>,
-    own: Elements<'a>,
+    own: Document<'a>,
     sources: HashMap<&'a str, NodeId>,
     read: &'d mut Read,
 }
 
 impl<'a, 'd> Positions<'a, 'd> {
     fn new(document: &'d Document<'a>, mesh: Node<'a, 'a>, read: &'d mut Read) -> Self {
-        Self { document, own: Elements::new(mesh.children()), sources: HashMap::new(), read }
+        Self { document, own: Document::new(mesh, mesh.children()), sources: HashMap::new(), read }
     }
 
     /// The positions that an input references through a `vertices` element or a `source`, and the texture coordinates of
@@ -165,7 +163,6 @@ impl Tools {
     }
 }
 
-/// Reads a `geometry` element.
 pub(super) fn read<'a>(
     document: &Document<'a>,
     geometry: Node<'a, 'a>,

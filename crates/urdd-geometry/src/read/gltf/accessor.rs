@@ -5,10 +5,10 @@ use base64::Engine as _;
 use base64::engine::DecodePaddingMode;
 use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
 
-use super::super::assembly::{Assembly, within};
-use super::super::collada::path_of_url;
-use super::super::error::{Failure, Fault, NoteCode};
 use super::json::{Accessor, Root, SparseArray};
+use crate::read::assembly::{Assembly, within};
+use crate::read::collada::path_of_url;
+use crate::read::scene::{Failure, Fault, NoteCode};
 use crate::vector::norm;
 
 const BYTE: u32 = 5120;
@@ -113,7 +113,6 @@ pub(super) fn check_normals(
 /// Tolerance for the length of a normal, which must be 1.
 const UNIT_NORMAL: f64 = 1e-3;
 
-/// The vertex indices of an accessor.
 pub(super) fn indices(
     index: usize,
     buffers: &mut Buffers<'_, '_>,
@@ -278,7 +277,6 @@ impl<'r, 'f> Buffers<'r, 'f> {
     }
 }
 
-/// Whether a URI is a data URI.
 pub(super) fn is_data(uri: &str) -> bool {
     uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
 }

@@ -1,6 +1,6 @@
 //! Arithmetic of the network for several configurations at once.
 
-use urdd_learned::kernel::*;
+use urdd_learned::tanh;
 
 #[test]
 fn tanh_is_that_of_libm() {
