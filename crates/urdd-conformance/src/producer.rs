@@ -10,10 +10,8 @@ use rayon::prelude::*;
 use crate::data::{Data, ROBOTS};
 use crate::process::{End, Ran, Template};
 use crate::refused::{self, REFUSED, Refused, codes, examine};
-use crate::running::{Result, RunError, Workplace, with_threads};
-use crate::skips::{self, Skip};
+use crate::running::{Result, RunError, Skip, Workplace, check_skips, with_threads};
 use crate::suite::Suite;
-use crate::valid;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_format::conformance::{
     ClassScore, ModuleScore, ModuleStatus, ProducerResult, RefusedScore, RobotModule, RobotScore,
@@ -102,8 +100,8 @@ pub fn run(
     observe: &(dyn Fn(&Event) + Sync),
 ) -> Result<ProducerResult> {
     let data = &suite.data;
-    let mut sources = Sources { robots: valid::robots(data), to_refuse: refused::all(suite)? };
-    skips::check(&plan.skips, |skip| sources.is_known(skip))?;
+    let mut sources = Sources { robots: data.robots(), to_refuse: refused::all(suite)? };
+    check_skips(&plan.skips, |skip| sources.is_known(skip))?;
     sources.choose(&plan.robots)?;
     let Sources { robots: names, to_refuse } = &sources;
     let folder = Workplace::new(plan.keep.as_deref())?;
@@ -180,7 +178,7 @@ fn is_asked_for(kind: ModuleKind, class: ConformanceClass) -> bool {
 /// Runs the command on a robot, in its own folder.
 fn robot(plan: &Plan, data: &Data, name: &str, folder: &Path) -> Result<RobotScore> {
     let robots = folder.join(ROBOTS);
-    valid::write_robots(data, &robots)?;
+    data.write_robots(&robots)?;
     let out = folder.join(name);
     let ran = ran(plan, &robots.join(format!("{name}.urdf")), &out)?;
     let examined = match ran.end {

@@ -2,8 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::part::{Faulted, Part, Scope, Why};
-use super::skip::SkipReason;
+use super::part::{Faulted, Part, Scope, SkipReason, Why};
 use urdd_directory::position::Position;
 use urdd_format::index::Count;
 use urdd_format::report::{Consequence, Fix, Magnitude, Severity};

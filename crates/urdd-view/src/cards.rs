@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 
 use rayon::ThreadPool;
 
-use crate::card::Picture;
-use crate::collection::{Collection, Making, Shown, Source};
-use crate::reply::{Body, Reply};
+use crate::collection::Collection;
+use crate::http::{Body, Reply};
+use crate::shown::{Making, Picture, Shown, Source};
 use crate::{picture, revision};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;

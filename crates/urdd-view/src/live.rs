@@ -15,7 +15,8 @@ use parking_lot::Mutex;
 use rayon::ThreadPool;
 
 use crate::cards::Cards;
-use crate::collection::{Collection, Making, Shown, Source};
+use crate::collection::Collection;
+use crate::shown::{Making, Shown, Source};
 use crate::{picture, revision};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;

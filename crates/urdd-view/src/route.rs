@@ -1,12 +1,13 @@
-//! Maps URLs to responses.
+//! Maps URLs to responses, and says what they and a site have of a robot.
 
 use percent_encoding::percent_decode_str;
 use serde_json::{Value, json};
 
-use crate::collection::{Collection, Making, Shown};
-use crate::reply::{Body, Reply};
-use crate::report::report_of;
-use crate::{assets, drops, picture, revision};
+use crate::collection::{Collection, MAX_DROP};
+use crate::http::{Body, Reply};
+use crate::report::{report_of, report_on};
+use crate::shown::{Making, Shown};
+use crate::{assets, picture, revision};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::limits::MAX_FILE_BYTES;
 use urdd_directory::root::{EntryKind, ReadError, Root};
@@ -74,7 +75,7 @@ impl Route {
             Route::Robot(_, Asked::Skips) => 64 << 20,
             Route::Robot(_, Asked::Configurations | Asked::States) => 1 << 20,
             Route::Robot(_, Asked::Keep) => 64 << 10,
-            Route::Drops => drops::MAX_BODY,
+            Route::Drops => MAX_DROP,
             _ => 0,
         }
     }
@@ -126,7 +127,15 @@ fn no_page() -> Reply {
 
 /// The response to a read request about a robot.
 pub fn answer_about(collection: &Collection, robot: &Shown, asked: &Asked) -> Reply {
-    about(collection, robot, asked).unwrap_or_else(|error| failure(&error))
+    about(collection, robot, asked).unwrap_or_else(|error| {
+        let status = match error {
+            ReadError::Missing | ReadError::NotAFile | ReadError::NotAUrdd => 404,
+            ReadError::LeavesRoot | ReadError::Path(_) => 403,
+            ReadError::Changed => 409,
+            _ => 500,
+        };
+        Reply::failure(status, format!("{error}\n"))
+    })
 }
 
 fn about(collection: &Collection, robot: &Shown, asked: &Asked) -> Result<Reply, ReadError> {
@@ -161,16 +170,6 @@ fn about(collection: &Collection, robot: &Shown, asked: &Asked) -> Result<Reply,
         },
         Asked::Skips | Asked::Configurations | Asked::Keep | Asked::States => no_page(),
     })
-}
-
-fn failure(error: &ReadError) -> Reply {
-    let status = match error {
-        ReadError::Missing | ReadError::NotAFile | ReadError::NotAUrdd => 404,
-        ReadError::LeavesRoot | ReadError::Path(_) => 403,
-        ReadError::Changed => 409,
-        _ => 500,
-    };
-    Reply::failure(status, format!("{error}\n"))
 }
 
 fn asset(name: &str, brotli: bool) -> Reply {
@@ -228,6 +227,26 @@ pub fn entry_with(robot: &Shown, report: &str) -> Value {
     entry["findings"] =
         json!({ "error": total("error"), "warning": total("warning"), "info": total("info") });
     entry
+}
+
+/// A robot as published: the URDD's own files, and the validator's report on them.
+pub struct Published {
+    pub root: Root,
+    pub report: String,
+    pub entry: Value,
+}
+
+/// Collects what is published of a robot.
+pub fn published(robot: &Shown) -> Result<Published, ReadError> {
+    let root = robot.open()?.1.own;
+    let report =
+        report_on(&root, &robot.name).unwrap_or_else(|error| json!({ "error": error }).to_string());
+    let mut entry = entry_with(robot, &report);
+    // A site is read-only, and notes name files of this machine.
+    entry["writable"] = json!(false);
+    entry["temporary"] = json!(false);
+    entry["notes"] = json!([]);
+    Ok(Published { root, report, entry })
 }
 
 /// The picture of a robot, if it has one. Rendered once for each revision.

@@ -7,13 +7,12 @@ use std::time::Duration;
 
 use thiserror::Error;
 
-use crate::collection::{Collection, Shown};
-use crate::connections::{Connection, Connections};
-use crate::guard::{Caller, Guard};
-use crate::http::{Request, converse};
-use crate::reply::Reply;
+use crate::collection::{Collection, take};
+use crate::guard::{Caller, Connection, Connections, Guard};
+use crate::http::{Reply, Request, converse};
 use crate::route::{Asked, Route, answer, answer_about};
-use crate::{cards, drops, keep, save};
+use crate::shown::Shown;
+use crate::{cards, save};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::hexadecimal::hexadecimal;
 
@@ -151,7 +150,7 @@ impl Answers {
                 None => Reply::failure(404, "there is no such robot\n"),
             },
             ("GET" | "HEAD", route) => answer(all, &route, takes_brotli(request)),
-            ("POST", Route::Drops) => drops::take(all, body, is_gone),
+            ("POST", Route::Drops) => take(all, body, is_gone),
             _ => cannot_be_done(),
         }
     }
@@ -169,7 +168,7 @@ impl Answers {
             ("POST", Asked::Skips) => save::skips(robot, body),
             ("POST", Asked::Configurations) => save::configuration(robot, body),
             ("POST", Asked::States) => save::state(robot, body),
-            ("POST", Asked::Keep) => keep::keep(robot, body),
+            ("POST", Asked::Keep) => save::keep(robot, body),
             _ => cannot_be_done(),
         }
     }

@@ -17,7 +17,7 @@ use serde_json::Value;
 
 use crate::cli::output::{self, Failure, about};
 use crate::cli::signals::{self, Signals};
-use urdd_conformance::skips::{self, Skip};
+use urdd_conformance::running::{Skip, read_skips};
 use urdd_directory::{outputs, regular};
 use urdd_validate::report;
 
@@ -119,7 +119,7 @@ impl RunArguments {
         let unreadable = |reason: &dyn Display| format!("{shown}: cannot be read: {reason}");
         let bytes = regular::read(file, MAX_SKIP_BYTES).map_err(|error| unreadable(&error))?;
         let text = String::from_utf8(bytes).map_err(|_| unreadable(&"it is not UTF-8"))?;
-        Ok(skips::read(&text, words, form).map_err(|error| format!("{shown}: {error}"))?)
+        Ok(read_skips(&text, words, form).map_err(|error| format!("{shown}: {error}"))?)
     }
 
     /// Prints a result, and writes it to the file of `--output`. `human` writes it for people.

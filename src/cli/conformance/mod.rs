@@ -10,8 +10,8 @@ use clap::Subcommand;
 
 use super::output::{self, Failure};
 use crate::suite;
-use urdd_conformance::catalogue::{CATALOGUE, CATALOGUE_1_1};
 use urdd_conformance::export::export;
+use urdd_conformance::export::{CATALOGUE, CATALOGUE_1_1};
 
 /// The commands of `urdd conformance`.
 #[derive(Subcommand)]

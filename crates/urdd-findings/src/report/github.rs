@@ -6,7 +6,7 @@ use std::fmt::{self, Write};
 use super::human::{self, times};
 use super::place::{file_in, is_inside};
 use super::programs::cell;
-use super::words::unit;
+use super::style::unit;
 use urdd_format::escape;
 use urdd_format::readable::counted;
 use urdd_format::report::{Report, Severity, Status, Urdd, Verdict};

@@ -1,8 +1,5 @@
-//! The report of the format: the engine fills it, and one file per format renders it.
+//! The report as JSON; a file for each other format.
 
-#[doc(hidden)]
-pub mod causes;
-mod fill;
 pub mod github;
 pub mod human;
 pub mod junit;
@@ -12,13 +9,11 @@ pub mod sarif;
 pub mod style;
 #[doc(hidden)]
 pub mod summary;
-mod words;
 
 use serde::Serialize;
 
 use urdd_format::escape;
 
-pub(crate) use fill::fill;
 pub use github::{github, markdown};
 pub use junit::junit;
 pub use sarif::sarif;

@@ -11,7 +11,7 @@ use sha2::{Digest, Sha256};
 
 use super::human::macro_of;
 use super::place::{file_in, is_inside};
-use super::words;
+use super::style::unverified;
 use crate::code::Code;
 use crate::description::Description;
 use crate::run::Run;
@@ -59,7 +59,7 @@ pub fn sarif(run: &Run, places: &[String], exit_code: u8) -> serde_json::Result<
     // Geometry or rates that were not verified do not make the run a failure.
     let failed = !notifications.is_empty();
     let unverified = placed().flat_map(|(urdd, place)| {
-        words::unverified(urdd).into_iter().map(move |text| {
+        unverified(urdd).into_iter().map(move |text| {
             json!({"level": "note", "message": message(&text), "locations": [folder(place)]})
         })
     });
