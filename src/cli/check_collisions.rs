@@ -8,10 +8,10 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
+use super::arguments::value_of;
 use super::configurations::{self, Listed};
 use super::inputs;
 use super::output::{self, Failure};
-use super::words::value_of;
 use urdd_export::KINDS;
 use urdd_format::escape;
 use urdd_format::readable::counted;

@@ -4,12 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::inputs::advice;
-use super::output::{self, Failure};
-use super::signals::{self, Signals};
-use super::sources::{
+use super::arguments::{
     LoopsArguments, PackageArguments, RobotArguments, XacroArguments, only_arguments,
 };
+use super::inputs::advice;
+use super::output::{self, Failure, Signals};
 use urdd_diff::{DiffError, Options, Side, TOLERANCE, compare, markdown, text};
 use urdd_source::{Settings, format_of};
 use urdd_validate::report;
@@ -88,7 +87,7 @@ impl DiffArguments {
 
 /// Runs `urdd diff`.
 pub fn run(arguments: &DiffArguments) -> Result<u8, Failure> {
-    signals::run(None, |signals| diff(arguments, signals))
+    output::stoppable(None, |signals| diff(arguments, signals))
 }
 
 fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {

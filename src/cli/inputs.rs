@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::arguments::{around, only_arguments};
 use super::output::{self, Failure, about, one_line, shown};
-use super::signals;
-use super::sources::{around, only_arguments};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA};
 use urdd_directory::file_type::FileType;
@@ -64,7 +63,7 @@ pub fn with_srdf(
     files: &SrdfArguments,
     work: impl FnOnce(&str) -> Result<String, Failure>,
 ) -> Result<u8, Failure> {
-    signals::run(None, |signals| {
+    output::stoppable(None, |signals| {
         let text = srdf_or_xacro(files, &signals.cancellation())?;
         output::print(&work(&text)?)?;
         Ok(0)

@@ -4,11 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::arguments::{PackageArguments, XacroArguments, split};
 use super::configurations::Lines;
 use super::inputs;
-use super::output::{self, Failure, about, shown};
-use super::signals::{self, Signals};
-use super::sources::{PackageArguments, XacroArguments, split};
+use super::output::{self, Failure, Signals, about, shown};
 use urdd_directory::root::Root;
 use urdd_directory::source::{Memory, is_archive};
 use urdd_format::readable::counted;
@@ -78,7 +77,7 @@ fn direction(word: &str) -> Result<[f64; 3], String> {
 
 /// Runs `urdd picture`.
 pub fn run(arguments: &PictureArguments) -> Result<u8, Failure> {
-    signals::run(None, |signals| {
+    output::stoppable(None, |signals| {
         let (paths, words) = split(&arguments.paths);
         let [path] = paths.as_slice() else {
             let count = counted(paths.len(), "path");

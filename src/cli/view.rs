@@ -8,11 +8,10 @@ use std::time::Duration;
 
 use clap::Args;
 
+use super::arguments::{LoopsArguments, PackageArguments, RobotArguments, XacroArguments, split};
 use super::configurations::Lines;
 use super::generate_output::{FAILED, Printer, ResultFormat};
-use super::output::{self, Failure, one_line};
-use super::signals::Signals;
-use super::sources::{LoopsArguments, PackageArguments, RobotArguments, XacroArguments, split};
+use super::output::{self, Failure, Signals, one_line};
 use urdd_directory::discover::DiscoverError;
 use urdd_directory::file_type::FileType;
 use urdd_directory::temporary::Temporary;

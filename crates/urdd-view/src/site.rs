@@ -26,7 +26,7 @@ use crate::route::{Published, picture_of, published};
 use crate::shown::Shown;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::limits::MAX_FILE_BYTES;
-use urdd_directory::root::{EntryKind, ReadError, Root};
+use urdd_directory::root::{EntryKind, ReadError};
 use urdd_directory::staging::{Staging, StagingError};
 use urdd_directory::writer::Writer;
 use urdd_directory::{digest, regular};

@@ -15,8 +15,7 @@ use parking_lot::Mutex;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::cli::output::{self, Failure, about};
-use crate::cli::signals::{self, Signals};
+use crate::cli::output::{self, Failure, Signals, about};
 use urdd_conformance::running::{Skip, read_skips};
 use urdd_directory::{outputs, regular};
 use urdd_validate::report;
@@ -154,7 +153,7 @@ fn is_log(file: &Path) -> bool {
 /// for skipped items; a failed item and a stale skip have the exit status 1.
 pub fn run(result: impl FnOnce(&Signals) -> Result<bool, Failure>) -> Result<u8, Failure> {
     let stopped = "stopped by a signal; all started processes have ended";
-    signals::run(Some(stopped), |signals| Ok(u8::from(!result(signals)?)))
+    output::stoppable(Some(stopped), |signals| Ok(u8::from(!result(signals)?)))
 }
 
 /// Time between two lines where standard error is not a terminal.

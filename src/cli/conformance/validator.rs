@@ -6,8 +6,7 @@ use clap::{Args, ValueEnum};
 use semver::Version;
 
 use super::common::{self, RunArguments};
-use crate::cli::output::Failure;
-use crate::cli::signals::Signals;
+use crate::cli::output::{Failure, Signals};
 use crate::suite;
 use urdd_conformance::process::Template;
 use urdd_conformance::validator::{Event, Fault, Judged, Plan, SKIP_FORM, run as run_validator};
