@@ -61,7 +61,6 @@ pub struct CombineArguments {
     making: MakingArguments,
 }
 
-/// Runs `urdd combine`.
 pub fn run(arguments: &CombineArguments) -> Result<u8, Failure> {
     let stopped = "stopped by a signal; nothing was changed";
     output::stoppable(Some(stopped), |signals| put_together(arguments, signals))

@@ -85,7 +85,6 @@ impl DiffArguments {
     }
 }
 
-/// Runs `urdd diff`.
 pub fn run(arguments: &DiffArguments) -> Result<u8, Failure> {
     output::stoppable(None, |signals| diff(arguments, signals))
 }

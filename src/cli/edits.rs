@@ -42,7 +42,6 @@ pub enum SkipsCommand {
     },
 }
 
-/// Runs `urdd skips`.
 pub fn skips(command: &SkipsCommand) -> Result<u8, Failure> {
     let SkipsCommand::Import { files, force } = command;
     with_srdf(files, |text| import_skips(files, text, *force))
@@ -111,7 +110,6 @@ pub enum SpheresCommand {
     },
 }
 
-/// Runs `urdd spheres`.
 pub fn spheres(command: &SpheresCommand) -> Result<u8, Failure> {
     let SpheresCommand::Import { list, urdd } = command;
     output::stoppable(None, |signals| {
@@ -163,7 +161,6 @@ fn spheres_of(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Fa
     Ok(read_spheres(&text(file, MAX_SPHERES_BYTES)?).map_err(about(file))?)
 }
 
-/// The spheres of a URDF's collision elements.
 fn of_urdf(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Failure> {
     let source = urdd_source::load(file, &around(), cancellation).map_err(one_line)?;
     let mut list = SphereList::default();
@@ -246,7 +243,6 @@ pub enum ConfigurationsCommand {
     },
 }
 
-/// Runs `urdd configurations`.
 pub fn configurations(command: &ConfigurationsCommand) -> Result<u8, Failure> {
     let text = match command {
         ConfigurationsCommand::List { urdd } => list(urdd),

@@ -128,7 +128,6 @@ pub fn name_of(option: &str) -> String {
     }
 }
 
-/// An option of the library as an argument.
 fn argument(of: &'static Choice) -> Arg {
     let help = of.about(true).trim_end_matches('.').to_owned();
     // clap keeps what is known when it is compiled.
@@ -167,7 +166,6 @@ fn targets() -> impl TypedValueParser<Value = Target> {
 #[derive(Clone, Copy)]
 pub struct Target(pub Option<Format>);
 
-/// Runs `urdd export`.
 pub fn run(arguments: &ExportArguments) -> Result<u8, Failure> {
     match arguments.format.0 {
         Some(format) => write_robot(arguments, format)?,

@@ -273,7 +273,6 @@ enum MeshFormat {
 }
 
 impl MakingArguments {
-    /// A pool with the requested number of threads.
     pub(super) fn pool(&self) -> Result<rayon::ThreadPool, Failure> {
         let mut pool = rayon::ThreadPoolBuilder::new();
         if let Some(threads) = self.threads {

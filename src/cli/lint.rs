@@ -78,7 +78,6 @@ pub struct LintArguments {
     xacro: XacroArguments,
 }
 
-/// Runs `urdd lint`.
 pub fn run(arguments: &LintArguments, color: Color) -> Result<u8, Failure> {
     output::stoppable(None, |signals| lint(arguments, color, signals))
 }

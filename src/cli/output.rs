@@ -49,7 +49,6 @@ pub fn about<E: Display>(path: &Path) -> impl Fn(E) -> String {
     move |error| format!("{}: {}", shown(path), one_line(error))
 }
 
-/// Prints to standard output.
 pub fn print(text: &str) -> Result<(), String> {
     write(&safe(text)).map(|_| ())
 }
@@ -80,7 +79,6 @@ pub fn print_raw(text: &str) -> Result<(), String> {
     write(&escape::lines(text)).map(|_| ())
 }
 
-/// Prints an error to standard error.
 pub fn error(message: &str) {
     let message = inert(message);
     let _ = writeln!(io::stderr().lock(), "urdd: {message}");
@@ -308,7 +306,6 @@ impl Signals {
         Ok(signals)
     }
 
-    /// The cancellation, to pass to the work.
     pub fn cancellation(&self) -> Cancellation {
         Cancellation::of(Arc::clone(&self.flag))
     }

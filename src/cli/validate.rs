@@ -45,7 +45,6 @@ pub struct ValidateArguments {
     with_crashing_rule: bool,
 }
 
-/// Runs `urdd validate`.
 pub fn run(arguments: &ValidateArguments, color: Color) -> Result<u8, Failure> {
     let mut settings = arguments.report.settings_file()?.settings;
     settings.class = arguments.class.map(Into::into).or(settings.class);
@@ -135,7 +134,6 @@ enum ReportFormat {
 }
 
 impl ReportFormat {
-    /// The format for a file name.
     fn of_file(file: &Path) -> ReportFormat {
         let name = file.to_string_lossy().to_ascii_lowercase();
         if name.ends_with(".sarif") || name.ends_with(".sarif.json") {

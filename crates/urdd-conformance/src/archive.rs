@@ -35,7 +35,6 @@ pub struct Oddities {
     between: String,
     /// Text after the archive's end.
     after: String,
-    /// The archive's comment.
     comment: String,
     /// Number of this part of a split archive; a whole one is part 0.
     part: u16,
@@ -77,7 +76,6 @@ struct Said {
     size: Option<u32>,
     /// The Unix mode. Only the list has it.
     mode: Option<u32>,
-    /// The extra field.
     extra_base64: Option<Base64>,
 }
 

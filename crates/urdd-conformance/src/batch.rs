@@ -24,7 +24,6 @@ pub struct Batch<'a> {
     idle: Mutex<Vec<Judge>>,
 }
 
-/// A process that judges.
 struct Judge {
     input: ChildStdin,
     answers: Receiver<String>,

@@ -119,26 +119,20 @@ impl<'de> Deserialize<'de> for Yes {
 
 /// How a change does not fit its file.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum Misfit {
-    /// The file does not exist.
     #[error("there is no such file to change")]
     Missing,
-    /// The file to copy does not exist.
     #[error("there is no {0} to copy")]
     NoOriginal(FilePath),
-    /// Not a JSON document.
     #[error("this is not JSON, and cannot be patched")]
     NotJson,
-    /// The patch does not apply.
     #[error(transparent)]
     Patch(#[from] json_patch::PatchError),
-    /// The text to replace does not occur.
     #[error("the text {0:?} was not found")]
     NotThere(String),
-    /// The bytes to replace are beyond the end of the file, or there would be too many.
     #[error("the file is too short or too long for this change")]
     Outside,
-    /// Not base64.
     #[error("not base64: {0}")]
     Base64(#[from] base64::DecodeError),
 }
@@ -201,7 +195,6 @@ impl Change {
         Ok(text.replacen(from, by, most).into_bytes())
     }
 
-    /// Removes the file, or all below the folder.
     fn clear(&self, tree: &mut Tree) -> Result<(), Misfit> {
         let before = tree.nodes.len();
         tree.nodes.retain(|path, _| !path.is_within(&self.file));

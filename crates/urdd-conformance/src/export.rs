@@ -23,7 +23,6 @@ use urdd_format::registry::{
 };
 use urdd_generate::{Settings, generate};
 
-/// Description of the suite.
 const README: &str = "README.md";
 
 /// Number of sampled configurations for the distance statistics of valid URDDs: small, so that generating takes seconds.
@@ -124,7 +123,6 @@ pub const CATALOGUE: &str = "suite.json";
 /// The catalogue in its newer version, with what cannot be read, and profiles.
 pub const CATALOGUE_1_1: &str = "suite-1.1.json";
 
-/// The content of a catalogue.
 #[derive(Debug, Serialize)]
 struct Catalogue<'a, T> {
     /// The version of the catalogue's form; the first has none.
@@ -134,7 +132,6 @@ struct Catalogue<'a, T> {
     spec_version: &'static str,
     /// The version of the program that exported it.
     urdd: &'static str,
-    /// Every URDD.
     cases: Vec<T>,
     /// Cases that this operating system cannot represent on disk.
     left_out: Vec<&'a String>,
@@ -169,7 +166,6 @@ pub struct Item {
     pub profiles: Vec<ValidatorProfile>,
 }
 
-/// An item of [`CATALOGUE_1_1`].
 #[derive(Debug, Serialize)]
 struct NewerItem<'a> {
     #[serde(flatten)]

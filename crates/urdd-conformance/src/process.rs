@@ -93,14 +93,12 @@ pub struct Template {
 
 /// Why a command is invalid.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum TemplateError {
-    /// The command is empty.
     #[error("no command given; give it after `--`")]
     Empty,
-    /// A placeholder is missing.
     #[error("the command has no {{{0}}}; put it where the path belongs")]
     Missing(&'static str),
-    /// A placeholder where there is none.
     #[error("with --batch, folders are lines of standard input: leave {{{0}}} out of the command")]
     Batch(&'static str),
 }

@@ -57,9 +57,7 @@ pub enum Event<'a> {
 /// Form of a line in a producer's skip list.
 pub const SKIP_FORM: &str = "`robot  # reason`, or `robot module  # reason`";
 
-/// What a producer runs on.
 struct Sources {
-    /// Names of the suite's robots.
     robots: Vec<String>,
     to_refuse: Vec<Refused>,
 }
@@ -156,12 +154,10 @@ pub fn run(
     })
 }
 
-/// Runs the command on a URDF.
 fn ran(plan: &Plan, urdf: &Path, out: &Path) -> Result<Ran, Cancelled> {
     plan.command.run(&[("urdf", urdf), ("out", out)], plan.limit, &plan.cancellation)
 }
 
-/// Runs the command on a URDF to refuse.
 fn refused(plan: &Plan, urdf: &Refused, folder: &Path) -> Result<RefusedScore> {
     let (path, out) = urdf.write(folder)?;
     let ran = ran(plan, &path, &out)?;
@@ -170,7 +166,6 @@ fn refused(plan: &Plan, urdf: &Refused, folder: &Path) -> Result<RefusedScore> {
     Ok(score)
 }
 
-/// Whether a class requires a module.
 fn is_asked_for(kind: ModuleKind, class: ConformanceClass) -> bool {
     kind.class().is_some_and(|first| first <= class)
 }
@@ -235,7 +230,6 @@ fn score(plan: &Plan, name: &str, ran: Ran, examined: Result<Urdd, Option<String
     }
 }
 
-/// An error on one line, with its location.
 fn told(finding: &Finding) -> String {
     let Finding { code, message, .. } = finding;
     let file = finding.file.as_deref().unwrap_or_default();

@@ -16,7 +16,6 @@ use crate::tree::{Tree, TreeError};
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RuleCases {
-    /// Name of the rule.
     rule: String,
     /// The verdict on the invalid cases. Near misses are to be accepted.
     verdict: Verdict,
@@ -30,7 +29,6 @@ struct RuleCases {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct UnreadableCases {
-    /// The clause of SPEC.md.
     clause: String,
     unreadable: Vec<Case>,
     /// URDDs that come near, and are to be accepted.
@@ -119,7 +117,6 @@ pub struct Expected {
     pub pointer: Option<String>,
 }
 
-/// All versions with the major number 1.
 pub(crate) fn every_version_one() -> VersionReq {
     VersionReq::parse(">=1.0.0, <2.0.0").unwrap_or_default()
 }

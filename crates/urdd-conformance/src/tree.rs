@@ -117,20 +117,16 @@ pub struct Tree {
 
 /// Why a tree could not be written or read.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum TreeError {
-    /// A file or folder could not be written.
     #[error("{path}: cannot be written: {1}", path = .0.display())]
     Write(PathBuf, io::Error),
-    /// A file or folder could not be read.
     #[error("{path}: cannot be read: {1}", path = .0.display())]
     Read(PathBuf, io::Error),
-    /// A folder could not be removed.
     #[error("{path}: cannot be removed: {1}", path = .0.display())]
     Remove(PathBuf, io::Error),
-    /// The operating system does not support such names, or symbolic links.
     #[error("{0}: this operating system cannot store it")]
     Unsupported(String),
-    /// An odd entry does not exist.
     #[error("`archive` names the entry {0:?}, and the archive has none of this name")]
     NoEntry(String),
 }
@@ -253,12 +249,10 @@ fn link(_: &Path, _: &Path) -> Option<io::Result<()>> {
     None
 }
 
-/// Creates a folder and those above it.
 pub(crate) fn make_folder(path: &Path) -> Result<(), TreeError> {
     fs::create_dir_all(path).map_err(|error| TreeError::Write(path.to_owned(), error))
 }
 
-/// Removes a folder and all that is in it.
 pub(crate) fn remove_folder(path: &Path) -> Result<(), TreeError> {
     fs::remove_dir_all(path).map_err(|error| TreeError::Remove(path.to_owned(), error))
 }

@@ -38,7 +38,6 @@ pub struct Judged<'a> {
     pub codes: Vec<&'static str>,
 }
 
-/// A URDD to judge.
 struct Chosen<'a> {
     item: Item,
     /// `None` for valid URDDs.

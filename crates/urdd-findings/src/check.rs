@@ -119,7 +119,6 @@ impl Check {
     }
 }
 
-/// The message of a panic.
 fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "unknown".to_owned())
@@ -153,7 +152,6 @@ pub(super) fn worst_first(finding: &mut Finding) {
     }
 }
 
-/// Rules, and their reasons.
 type Whys = BTreeSet<(Code, String)>;
 
 /// One examined URDD or URDF.

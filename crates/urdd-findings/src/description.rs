@@ -69,7 +69,6 @@ pub struct Family {
     pub about: &'static str,
 }
 
-/// A line for each family.
 macro_rules! families {
     ($($code:ident $name:literal $about:literal;)*) => {
         &[$(Family { code: stringify!($code), name: $name, about: $about }),*]

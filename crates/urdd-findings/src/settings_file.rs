@@ -167,7 +167,6 @@ impl Settings {
     }
 }
 
-/// The file as it is written.
 #[derive(Deserialize, Default)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 struct File {

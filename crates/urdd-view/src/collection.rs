@@ -28,9 +28,7 @@ use urdd_source::{Settings as SourceSettings, robots};
 #[derive(Debug, Default)]
 pub struct Collection {
     listed: Mutex<Listed>,
-    /// Where dropped files go, if they are accepted.
     drops: Option<Drops>,
-    /// How URDFs are read.
     pub(super) settings: Settings,
 }
 
@@ -108,7 +106,6 @@ impl Collection {
         shown
     }
 
-    /// Whether a file is in what was dropped.
     pub(super) fn has_dropped(&self, file: &Path) -> bool {
         self.drops.as_ref().is_some_and(|drops| file.starts_with(&drops.folder))
     }

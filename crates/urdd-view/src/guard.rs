@@ -32,7 +32,6 @@ impl Caller<'_> {
     }
 }
 
-/// Why a request is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
     /// Sent to another host name, as in DNS rebinding attacks by other pages.
@@ -53,7 +52,6 @@ impl Refusal {
     }
 }
 
-/// The access rules of one server.
 #[derive(Debug, Clone)]
 pub struct Guard {
     pub port: u16,

@@ -281,12 +281,10 @@ const HEADERS: &[(&str, &str)] = &[
 ];
 
 impl Reply {
-    /// A response of a media type, without an error.
     pub fn ok(media_type: &'static str, body: Body) -> Self {
         Self { status: 200, media_type, brotli: false, body }
     }
 
-    /// A text response with an error message.
     pub fn failure(status: u16, message: impl Into<String>) -> Self {
         let body = Body::Bytes(message.into().into_bytes());
         Self { status, ..Self::ok("text/plain; charset=utf-8", body) }
@@ -317,7 +315,6 @@ impl Reply {
 /// Why a request was not done: an HTTP status, and the reason.
 pub type Failure = (u16, String);
 
-/// What requests that do something return.
 pub type Result<T, E = Failure> = std::result::Result<T, E>;
 
 /// An error as a failure of this status.

@@ -23,7 +23,6 @@ pub enum Route {
     Unknown,
 }
 
-/// What is asked of a robot.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Asked {
     Revision,
@@ -125,7 +124,6 @@ fn no_page() -> Reply {
     Reply::failure(404, "there is no such page\n")
 }
 
-/// The response to a read request about a robot.
 pub fn answer_about(collection: &Collection, robot: &Shown, asked: &Asked) -> Reply {
     about(collection, robot, asked).unwrap_or_else(|error| {
         let status = match error {
@@ -236,7 +234,6 @@ pub struct Published {
     pub entry: Value,
 }
 
-/// Collects what is published of a robot.
 pub fn published(robot: &Shown) -> Result<Published, ReadError> {
     let root = robot.open()?.1.own;
     let report =
@@ -264,7 +261,6 @@ pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
     drawn
 }
 
-/// The path and size of each file below a root.
 fn files(root: &Root) -> Result<Value, ReadError> {
     let entries = root.list()?.entries.into_iter().filter(|entry| entry.kind == EntryKind::File);
     Ok(entries.map(|entry| json!({ "path": entry.path, "size": entry.size })).collect())

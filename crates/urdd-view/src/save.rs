@@ -42,7 +42,6 @@ struct Wish {
     undo: bool,
 }
 
-/// What the page sends to name a configuration.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Pose {
@@ -175,7 +174,6 @@ fn named(robot: &Shown, wish: &Pose) -> Result<Files> {
     edited.map(|edited| edited.files).map_err(failed(400))
 }
 
-/// The files that change.
 fn made(robot: &Shown, edits: Vec<SkipEdit>, reasons: Option<Vec<SkippedReason>>) -> Result<Files> {
     if edits.len() > MAX_EDITS {
         return refused(400, "too many edits");
@@ -257,7 +255,6 @@ fn kept(robot: &Shown, folder: &str) -> Result<PathBuf> {
     Ok(place)
 }
 
-/// Resolves the path that the user entered.
 fn resolved(folder: &str) -> Result<PathBuf> {
     let said = folder.trim();
     if said.is_empty() || said.contains('\0') {

@@ -16,7 +16,6 @@ use crate::{cards, save};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::hexadecimal::hexadecimal;
 
-/// The preferred port.
 const USUAL_PORT: u16 = 8642;
 /// Polling interval for connections and cancellation.
 const PAUSE: Duration = Duration::from_millis(2);
@@ -44,7 +43,6 @@ pub struct Server {
     answers: Answers,
 }
 
-/// What a request is answered from.
 struct Answers {
     guard: Guard,
     collection: Arc<Collection>,

@@ -75,7 +75,6 @@ impl Source {
 #[derive(Debug, Default)]
 struct Standing {
     path: PathBuf,
-    /// Whether there is something to show at that path.
     is_ready: bool,
     notes: Vec<String>,
     kind: Access,

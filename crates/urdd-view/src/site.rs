@@ -131,7 +131,6 @@ impl SiteList {
         Ok(list)
     }
 
-    /// Adds a file.
     fn add(&mut self, path: &str, sha256: &str) {
         let hashes = self.0.entry(path.to_owned()).or_default();
         hashes.insert(sha256.to_owned());
@@ -141,7 +140,6 @@ impl SiteList {
         self.0.get(path).is_some_and(|hashes| hashes.contains(sha256))
     }
 
-    /// Combines this list with another one.
     fn with(&self, other: &Self) -> Self {
         let mut both = self.clone();
         for (path, hashes) in &other.0 {
@@ -225,7 +223,6 @@ impl SiteList {
     }
 }
 
-/// Whether an export writes this path.
 fn is_of_site(path: &str) -> bool {
     let plain = |c: char| c.is_ascii_digit() || c.is_ascii_lowercase();
     let is_name = |name: &str| {

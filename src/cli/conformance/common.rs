@@ -78,12 +78,10 @@ enum SuiteFormat {
 }
 
 impl RunArguments {
-    /// The time limit.
     pub fn limit(&self) -> Duration {
         Duration::from_secs(self.timeout)
     }
 
-    /// Creates the progress display and the log.
     pub fn follow(&self) -> Result<Follow, Failure> {
         let Some(path) = &self.log else {
             return Ok(Follow::new(None));
@@ -109,7 +107,6 @@ impl RunArguments {
         Ok(())
     }
 
-    /// The skip list.
     pub fn skips(&self, words: usize, form: &'static str) -> Result<Vec<Skip>, Failure> {
         let Some(file) = &self.skip else {
             return Ok(Vec::new());
@@ -159,7 +156,6 @@ pub fn run(result: impl FnOnce(&Signals) -> Result<bool, Failure>) -> Result<u8,
 /// Time between two lines where standard error is not a terminal.
 const INTERVAL: Duration = Duration::from_secs(10);
 
-/// The message for a file that cannot be written.
 fn cannot_write(file: &Path, error: &std::io::Error) -> String {
     format!("{}: cannot be written: {error}", file.display())
 }
@@ -175,7 +171,6 @@ pub struct Follow {
 #[derive(Default)]
 struct State {
     log: Option<(PathBuf, File)>,
-    /// Number of items to run.
     of: usize,
     done: usize,
     wrong: usize,
@@ -223,7 +218,6 @@ impl Follow {
         });
     }
 
-    /// Sets the number of items to run.
     pub fn start(&self, of: usize) {
         self.state.lock().of = of;
         self.bar.set_length(of as u64);
@@ -260,7 +254,6 @@ impl Follow {
         self.bar.inc(1);
     }
 
-    /// Ends the run.
     pub fn finish(mut self) -> Result<(), String> {
         self.lines.take();
         self.bar.finish_and_clear();

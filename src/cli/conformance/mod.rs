@@ -34,14 +34,15 @@ pub enum ConformanceCommand {
     Validator(validator::ValidatorArguments),
 }
 
-/// Runs `urdd conformance`.
 pub fn run(command: &ConformanceCommand) -> Result<u8, Failure> {
     match command {
         ConformanceCommand::Export { folder } => exported(folder),
         ConformanceCommand::Producer(arguments) => {
             common::run(|signals| produced(arguments, signals))
         }
-        ConformanceCommand::Validator(arguments) => validator::run(arguments),
+        ConformanceCommand::Validator(arguments) => {
+            common::run(|signals| validator::judged(arguments, signals))
+        }
     }
 }
 
@@ -151,7 +152,6 @@ fn status(status: ScoreStatus, skipped_since: Option<&str>) -> String {
     }
 }
 
-/// What a command printed.
 fn indented(text: Option<&str>, out: &mut String) -> std::fmt::Result {
     text.into_iter().flat_map(str::lines).try_for_each(|line| writeln!(out, "    {line}"))
 }

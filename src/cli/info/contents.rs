@@ -25,29 +25,22 @@ pub struct Info {
     pub robot_name: Option<String>,
     /// Version of the specification that the root metadata states.
     pub urdd_version: Option<String>,
-    /// The claimed conformance class.
     pub conformance_class: Option<String>,
-    /// Path of the carried source URDF.
     pub urdf: Option<String>,
     pub links: Option<usize>,
-    /// Number of joints of each type.
     pub joints: BTreeMap<String, usize>,
     pub dofs: Vec<DofInfo>,
     /// Name of the base link of a composed robot: the link that carries parts and belongs to none.
     pub base: Option<String>,
-    /// The parts of a composed robot, as a tree.
     pub parts: Vec<PartInfo>,
-    /// The rates of the self-collision model.
     pub collision_model: Option<ModelInfo>,
     /// Which elements the shapes of links are made of; null without `plain_meshes_module`.
     pub geometry: Option<GeometryInfo>,
     /// Pairs of links that are skipped because they touch in the default configuration, or in the reference; null if the
     /// modules of shapes are missing or cannot be read.
     pub skipped_contacts: Option<Vec<SkippedContact>>,
-    /// What closes the loops of a robot that is no tree.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub loops: Option<LoopsInfo>,
-    /// The levels of spheres of links.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub spheres: Vec<LevelInfo>,
     pub modules: Vec<ModuleInfo>,
@@ -70,10 +63,8 @@ pub struct DofInfo {
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModuleInfo {
-    /// Path of its folder.
     pub path: String,
     pub version: Option<String>,
-    /// Number of its files.
     pub files: usize,
     /// Total size of its files, in bytes.
     pub bytes: u64,
@@ -168,7 +159,6 @@ fn dofs(urdd: &Urdd) -> Vec<DofInfo> {
         .collect()
 }
 
-/// Writes the contents of a URDD for people.
 pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
     let or = |text: &Option<String>, without: &str| safe(text.as_deref().unwrap_or(without));
     writeln!(out, "{}", safe(&info.path))?;

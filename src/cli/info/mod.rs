@@ -95,12 +95,10 @@ pub fn run(arguments: &InfoArguments) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// A file of robots.
 #[derive(Serialize)]
 struct RobotFile {
     /// The file, from the current folder.
     source: String,
-    /// The arguments that it takes.
     arguments: Vec<ArgumentInfo>,
 }
 

@@ -18,7 +18,6 @@ use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::self_collision_model::ModelEvaluation;
 use urdd_validate::{ModelVerdict, verify_model};
 
-/// The elements that the shapes of links are made of.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GeometryInfo {
     /// Number of links whose shapes are those of their visual elements.
@@ -119,14 +118,11 @@ impl ModelInfo {
     }
 }
 
-/// A level of spheres.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LevelInfo {
-    /// Number of spheres.
     pub spheres: usize,
     /// Whether they hold all pieces of the links.
     pub covers: bool,
-    /// Where they are from.
     pub origin: SphereOrigin,
     /// Of collisions, those that the level misses; of free configurations, those in which it touches.
     pub miss_rate: Rate,
@@ -180,14 +176,12 @@ pub fn write_spheres(levels: &[LevelInfo], out: &mut impl Write) -> fmt::Result 
 /// Maximum number of DOFs that are named.
 const MOST_NAMED: usize = 8;
 
-/// What closes the loops of a robot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LoopsInfo {
     /// Number of loops of each kind.
     pub kinds: BTreeMap<&'static str, usize>,
     /// Number of equations between DOFs.
     pub couplings: usize,
-    /// Names of the DOFs that move freely.
     pub independent: Vec<String>,
 }
 
@@ -229,16 +223,12 @@ impl LoopsInfo {
     }
 }
 
-/// A part of a composed robot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PartInfo {
-    /// Its id in the recipe.
     pub id: String,
     /// Name of the robot that it was made from.
     pub robot: String,
-    /// Prefix of its names.
     pub prefix: String,
-    /// Number of its links.
     pub links: usize,
     /// Number of its links that were dropped.
     pub dropped_links: usize,
@@ -252,7 +242,6 @@ pub struct PartInfo {
     pub by_joint: Option<String>,
     /// Type of that joint, if known.
     pub joint_type: Option<String>,
-    /// The parts attached to it.
     pub carries: Vec<PartInfo>,
     /// The parts that it was itself composed of.
     pub parts: Vec<PartInfo>,
@@ -307,13 +296,11 @@ fn part(parts: &[CompositionPart], idx: usize, robot: Option<&Robot>, depth: usi
     }
 }
 
-/// The name of the base's link.
 pub fn base(base: Option<&CompositionBase>, robot: Option<&Robot>) -> Option<String> {
     let link = robot?.links.get(base?.link_idx.get())?;
     Some(link.name.clone())
 }
 
-/// Writes the tree for people.
 pub fn write_parts(parts: &[PartInfo], margin: &str, out: &mut impl Write) -> fmt::Result {
     for part in parts {
         write!(out, "{margin}{}", safe(&part.id))?;

@@ -33,18 +33,15 @@ pub struct StaticsArguments {
     at: Option<String>,
 }
 
-/// What holds a robot still against gravity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Statics {
     /// m/s², in the root link's frame.
     pub gravity: [f64; 3],
-    /// What a link carries.
     pub payload: Option<PayloadInfo>,
     /// The mass of all links, kg.
     pub mass: f64,
     /// The centre of mass of all links in the default configuration, m.
     pub centre_of_mass: Option<[f64; 3]>,
-    /// Number of sampled configurations.
     pub num_samples: u32,
     pub dofs: Vec<DofStatics>,
 }
@@ -83,13 +80,13 @@ impl Statics {
             return Ok(None);
         }
         let robot = inputs::open(path)?;
-        let payload = match (asked.payload, &asked.at) {
-            (Some(mass), Some(name)) => {
-                Some(Payload { link: robot.link(name)?, mass, point: [0.0; 3] })
-            }
-            _ => None,
-        };
-        let settings = GravitySettings { payload, ..GravitySettings::default() };
+        let payload = asked.at.clone().zip(asked.payload);
+        let payload = payload.map(|(link, mass)| PayloadInfo { link, mass });
+        let mut settings = GravitySettings::default();
+        if let Some(PayloadInfo { link, mass }) = &payload {
+            settings.payload =
+                Some(Payload { link: robot.link(link)?, mass: *mass, point: [0.0; 3] });
+        }
         let space = robot.configurations()?;
         let default = space.zero();
         let at_default = robot.gravity_torques(&default, &settings)?;
@@ -121,11 +118,7 @@ impl Statics {
         });
         Ok(Some(Statics {
             gravity: settings.gravity,
-            payload: asked
-                .at
-                .clone()
-                .zip(asked.payload)
-                .map(|(link, mass)| PayloadInfo { link, mass }),
+            payload,
             mass: robot.link_masses()?.iter().map(|link| link.mass).sum(),
             centre_of_mass: robot.centre_of_mass(&default)?,
             num_samples,
@@ -133,7 +126,6 @@ impl Statics {
         }))
     }
 
-    /// Writes the table for people.
     pub fn write(&self, out: &mut impl Write) -> fmt::Result {
         const MARGIN: &str = "            ";
         let payload = self.payload.as_ref().map(|PayloadInfo { link, mass }| {
@@ -193,7 +185,6 @@ pub struct SkippedContact {
     pub links: [String; 2],
     /// Number of the sampled configurations in which they touch.
     pub touching: usize,
-    /// Number of the sampled configurations.
     pub num_samples: u32,
 }
 
@@ -226,7 +217,6 @@ impl SkippedContact {
     }
 }
 
-/// Writes the pairs for people.
 pub fn write_skipped(found: &[SkippedContact], out: &mut impl Write) -> fmt::Result {
     let Some(SkippedContact { num_samples, .. }) = found.first() else {
         return Ok(());

@@ -66,13 +66,11 @@ pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::
     Ok(())
 }
 
-/// The text of a command.
 fn data(text: &str) -> String {
     // Line breaks are already escaped. A percent sign starts an escape sequence of Actions.
     escape::line(text).replace('%', "%25")
 }
 
-/// A property of a command.
 fn property(text: &str) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
 }

@@ -147,7 +147,6 @@ fn describe(urdd: &Urdd) -> String {
     parts.join(", ")
 }
 
-/// Writes one finding.
 pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Write) -> fmt::Result {
     let times = times(finding);
     let code = style.paint(BOLD, &finding.code);

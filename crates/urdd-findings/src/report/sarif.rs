@@ -295,7 +295,6 @@ fn location(urdd: &str, place: &Place) -> Value {
     location
 }
 
-/// The location of a URDD.
 fn folder(urdd: &str) -> Value {
     location(urdd, &Place::default())
 }

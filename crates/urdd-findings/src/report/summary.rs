@@ -41,7 +41,6 @@ const LESSER: usize = 5;
 const NAME: usize = 28;
 const ROW: usize = 80;
 
-/// Writes the table and the causes.
 pub(super) fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
     write_table(report, style, out)?;
     let all = causes(report);
@@ -117,7 +116,6 @@ fn write_more(of: usize, shown: usize, style: Style, out: &mut impl Write) -> fm
     writeln!(out, "    {}", style.paint(DIM, text))
 }
 
-/// A consequence in words.
 fn words(consequence: Consequence) -> &'static str {
     match consequence {
         Consequence::WrongMotion => "wrong motion",
@@ -151,7 +149,6 @@ fn write_cause(cause: &Cause<'_>, unit: &str, style: Style, out: &mut impl Write
     writeln!(out, "{}", style.paint(DIM, shorten(&example, style.width)))
 }
 
-/// The kind of subjects of a cause, in the plural.
 fn kinds(cause: &Cause<'_>) -> &'static str {
     let subject = cause.first.subject.as_deref().unwrap_or_default();
     if subject.contains(", ") {
