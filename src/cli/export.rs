@@ -26,41 +26,41 @@ use urdd_srdf::merge_srdf;
 pub struct ExportArguments {
     /// The format.
     #[arg(value_parser = targets())]
-    pub format: Target,
+    format: Target,
 
     /// A URDD: a folder or a zip archive.
     #[arg(value_name = "URDD")]
-    pub path: PathBuf,
+    path: PathBuf,
 
     /// The file to write; `-` prints a format that has no mesh files. For `moveit`, a folder. For `init`, by default
     /// `NAME.export.toml` beside the URDD.
     #[arg(long, short, value_name = "FILE")]
-    pub output: Option<PathBuf>,
+    output: Option<PathBuf>,
 
     /// What the URDD does not say: groups, end effectors, tool frames, gains. Default: `NAME.export.toml` beside the URDD,
     /// if it is there.
     #[arg(long, value_name = "FILE")]
-    pub setup: Option<PathBuf>,
+    setup: Option<PathBuf>,
 
     #[command(flatten)]
-    pub chosen: Chosen,
+    chosen: Chosen,
 
     /// Replaces the pairs of links in an existing SRDF, except those that a person wrote (their reason is `User` or free
     /// text). Everything else in the file is unchanged. For `moveit`, all other files that exist stay as they are.
     #[arg(long, conflicts_with = "force")]
-    pub update: bool,
+    update: bool,
 
     /// Writes what was carried, carried otherwise and lost of this robot to a file, as JSON.
     #[arg(long, value_name = "FILE")]
-    pub report: Option<PathBuf>,
+    report: Option<PathBuf>,
 
     /// Overwrites existing files.
     #[arg(long)]
-    pub force: bool,
+    force: bool,
 }
 
 /// What was chosen of the options that the library has.
-pub struct Chosen(pub Vec<(&'static Choice, Value)>);
+struct Chosen(Vec<(&'static Choice, Value)>);
 
 impl Args for Chosen {
     fn augment_args(command: Command) -> Command {
@@ -121,7 +121,7 @@ const ACTUATORS: &str = "actuators";
 const NONE: &str = "none";
 
 /// The name of an option here.
-pub fn name_of(option: &str) -> String {
+fn name_of(option: &str) -> String {
     match option {
         "robot_file" => "config".to_owned(),
         option => option.replace('_', "-"),
@@ -164,7 +164,7 @@ fn targets() -> impl TypedValueParser<Value = Target> {
 
 /// A format; `None` for what is no robot.
 #[derive(Clone, Copy)]
-pub struct Target(pub Option<Format>);
+struct Target(Option<Format>);
 
 pub fn run(arguments: &ExportArguments) -> Result<u8, Failure> {
     match arguments.format.0 {

@@ -17,8 +17,8 @@ use urdd_format::escape;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_generate::batch::{self, Observer, Shard};
 use urdd_generate::{
-    Effort, GenerateError, Generated, MAX_SOURCE_BYTES, MeshFormats, PIECE_TOLERANCE, PIECES,
-    Pieces, Progress, SAMPLES, Selection, Settings, generate_text,
+    GenerateError, Generated, MAX_SOURCE_BYTES, MeshFormats, PIECE_TOLERANCE, PIECES, Pieces,
+    Progress, SAMPLES, Selection, Settings, generate_text,
 };
 use urdd_source::robots::{self, Batch, Job};
 
@@ -157,8 +157,8 @@ fn one(
     pool: &rayon::ThreadPool,
     printer: &Printer,
 ) -> Result<usize, String> {
-    let piped =
-        if job.source.as_os_str() == STANDARD_INPUT { Some(standard_input()?) } else { None };
+    let is_piped = job.source.as_os_str() == STANDARD_INPUT;
+    let piped = is_piped.then(standard_input).transpose()?;
     let job = Job { name: output.display().to_string(), ..job };
     let progress = printer.begin(&job);
     let outcome = pool.install(|| {
@@ -177,11 +177,8 @@ fn one(
 /// Reads standard input, up to one byte more than the maximum size of a URDF.
 fn standard_input() -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
-    let input = std::io::stdin().lock();
-    input
-        .take(MAX_SOURCE_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|error| format!("standard input cannot be read: {error}"))?;
+    let read = std::io::stdin().lock().take(MAX_SOURCE_BYTES + 1).read_to_end(&mut bytes);
+    read.map_err(|error| format!("standard input cannot be read: {error}"))?;
     Ok(bytes)
 }
 
@@ -300,7 +297,6 @@ impl MakingArguments {
             },
             pieces: Pieces { most: self.pieces, tolerance: self.piece_tolerance },
             num_samples: self.samples,
-            model_effort: Effort::default(),
             source: urdd_source::Settings {
                 xacro: self.xacro.settings(xacro_arguments),
                 loops: self.named_loops.loops.clone(),

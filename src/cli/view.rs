@@ -113,10 +113,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         .with_settings(settings.clone());
     let counts = add(&paths, &settings.source, &collection)?;
     let robots = collection.robots();
-    let opens = match arguments.compare {
-        true => Some(comparison(&paths, &counts, &robots)?),
-        false => None,
-    };
+    let opens = arguments.compare.then(|| comparison(&paths, &counts, &robots)).transpose()?;
     let live = Live {
         folder: temporary.path(),
         settings: &settings,

@@ -4,14 +4,12 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::Path;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use flate2::write::DeflateEncoder;
 use flate2::{Compression, Crc};
 use serde::Deserialize;
 
 use crate::data::URDD;
-use crate::tree::{FilePath, Node, Tree, TreeError, make_folder, write_file};
+use crate::tree::{Base64, FilePath, Node, Tree, TreeError, make_folder, write_file};
 
 /// Where in its archive a URDD is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -84,18 +82,6 @@ struct Said {
 enum Descriptor {
     WithSignature,
     WithoutSignature,
-}
-
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(try_from = "String")]
-struct Base64(Vec<u8>);
-
-impl TryFrom<String> for Base64 {
-    type Error = base64::DecodeError;
-
-    fn try_from(text: String) -> Result<Base64, Self::Error> {
-        STANDARD.decode(text).map(Base64)
-    }
 }
 
 /// Version 2.0 of the format, which has folders and deflated entries.

@@ -3,13 +3,11 @@
 
 use std::collections::BTreeSet;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use json_patch::Patch;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use crate::tree::{FilePath, Node, Tree};
+use crate::tree::{Base64, FilePath, Node, Tree};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::{canonical, file_entry, json};
 
@@ -76,8 +74,8 @@ pub enum Action {
         at: usize,
         /// Number of bytes to remove.
         remove: usize,
-        /// Bytes to insert, in base64.
-        insert_base64: String,
+        /// Bytes to insert.
+        insert_base64: Base64,
     },
     /// Repeats a text, so that a large file is a small case.
     Repeat {
@@ -90,8 +88,8 @@ pub enum Action {
     },
     /// Writes this text to the file.
     Write(String),
-    /// Writes these bytes, in base64, to the file.
-    WriteBase64(String),
+    /// Writes these bytes to the file.
+    WriteBase64(Base64),
     /// Truncates the file to this many bytes.
     CutTo(usize),
     /// Deletes the file, or the folder with its contents.
@@ -133,8 +131,6 @@ pub enum Misfit {
     NotThere(String),
     #[error("the file is too short or too long for this change")]
     Outside,
-    #[error("not base64: {0}")]
-    Base64(#[from] base64::DecodeError),
 }
 
 impl Change {
@@ -150,14 +146,14 @@ impl Change {
             Action::LinkTo(target) => return self.become_node(Node::Link(target.clone()), tree),
             Action::Folder(Yes) => return self.become_node(Node::Folder, tree),
             Action::Write(text) => text.as_bytes().to_vec(),
-            Action::WriteBase64(text) => STANDARD.decode(text)?,
+            Action::WriteBase64(Base64(bytes)) => bytes.clone(),
             Action::Replace { from, by } => self.replaced(from, by, 1, tree)?,
             Action::ReplaceAll { from, by } => self.replaced(from, by, usize::MAX, tree)?,
-            Action::Splice { at, remove, insert_base64 } => {
+            Action::Splice { at, remove, insert_base64: Base64(insert) } => {
                 let mut bytes = self.bytes(tree)?.to_vec();
                 let end = at.checked_add(*remove).filter(|end| *end <= bytes.len());
                 let end = end.ok_or(Misfit::Outside)?;
-                bytes.splice(*at..end, STANDARD.decode(insert_base64)?);
+                bytes.splice(*at..end, insert.iter().copied());
                 bytes
             }
             Action::Repeat { at, text, times } => {

@@ -13,24 +13,35 @@ use urdd_directory::outputs;
 /// A path with forward slashes, relative to the URDD's root; `../` leads to files beside the URDD. Stored as bytes,
 /// because most systems allow names that are not UTF-8.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-#[serde(try_from = "Written")]
+#[serde(from = "Written")]
 pub struct FilePath(Vec<u8>);
 
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Written {
     Text(String),
-    Bytes { base64: String },
+    Bytes { base64: Base64 },
 }
 
-impl TryFrom<Written> for FilePath {
+impl From<Written> for FilePath {
+    fn from(path: Written) -> FilePath {
+        FilePath(match path {
+            Written::Text(text) => text.into_bytes(),
+            Written::Bytes { base64: Base64(bytes) } => bytes,
+        })
+    }
+}
+
+/// Bytes, in base64 in a file of the suite.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "String")]
+pub struct Base64(pub Vec<u8>);
+
+impl TryFrom<String> for Base64 {
     type Error = base64::DecodeError;
 
-    fn try_from(path: Written) -> Result<FilePath, Self::Error> {
-        Ok(FilePath(match path {
-            Written::Text(text) => text.into_bytes(),
-            Written::Bytes { base64 } => STANDARD.decode(base64)?,
-        }))
+    fn try_from(text: String) -> Result<Base64, Self::Error> {
+        STANDARD.decode(text).map(Base64)
     }
 }
 

@@ -97,17 +97,17 @@ impl Check {
             Ok(completed) => completed.is_some(),
             Err(panic) => return crashed(panic_message(&*panic)),
         };
-        let undeclared = !completed && findings.skipped().is_none();
+        let undeclared = !completed && findings.skipped.is_none();
         if undeclared && cfg!(debug_assertions) {
             let code = rule.code;
             return crashed(format!("{code} takes something that it does not declare in `needs`"));
         }
+        let scope = &findings.scope;
         let undeclared = || undeclared.then_some(SkipReason::UndeclaredNeed);
-        let nothing_left = || findings.scope().nothing_left().map(SkipReason::Failed);
-        let skipped = findings.skipped().cloned();
-        let skipped = skipped.or_else(undeclared).or_else(nothing_left);
-        let not_verified = findings.scope().not_verified();
-        let (scope, faulted) = (findings.scope().afresh(), findings.faulted().clone());
+        let nothing_left = || scope.nothing_left().map(SkipReason::Failed);
+        let skipped = findings.skipped.clone().or_else(undeclared).or_else(nothing_left);
+        let (not_verified, scope) = (scope.not_verified(), scope.afresh());
+        let faulted = findings.faulted.clone();
         let mut found = findings.take();
         found.iter_mut().for_each(worst_first);
         let outcome = match (found.is_empty(), skipped) {

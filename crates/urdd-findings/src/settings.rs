@@ -138,7 +138,7 @@ pub enum SettingsError {
 }
 
 /// Maximum number of variants of a settings file: each is expanded by xacro.
-pub const MAX_VARIANTS: usize = 1000;
+pub(crate) const MAX_VARIANTS: usize = 1000;
 
 /// What is wrong with an entry of `[[robot]]`.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -228,7 +228,7 @@ pub(crate) fn parse_code(text: &str) -> Result<Code, SettingsError> {
 ///
 /// # Errors
 /// If there is no such severity.
-pub(crate) fn parse_severity(text: &str) -> Result<Severity, SettingsError> {
+pub fn parse_severity(text: &str) -> Result<Severity, SettingsError> {
     [Severity::Error, Severity::Warning, Severity::Info]
         .into_iter()
         .find(|severity| severity.as_str() == text)
@@ -249,7 +249,7 @@ pub fn parse_program(text: &str) -> Result<String, SettingsError> {
 ///
 /// # Errors
 /// If there is no such class.
-pub(crate) fn parse_class(text: &str) -> Result<ConformanceClass, SettingsError> {
+pub fn parse_class(text: &str) -> Result<ConformanceClass, SettingsError> {
     ConformanceClass::ALL
         .iter()
         .copied()

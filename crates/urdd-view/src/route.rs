@@ -7,7 +7,7 @@ use crate::collection::{Collection, MAX_DROP};
 use crate::http::{Body, Reply};
 use crate::report::{report_of, report_on};
 use crate::shown::{Making, Shown};
-use crate::{assets, picture, revision};
+use crate::{assets, picture, revision, save};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::limits::MAX_FILE_BYTES;
 use urdd_directory::root::{EntryKind, ReadError, Root};
@@ -124,21 +124,37 @@ fn no_page() -> Reply {
     Reply::failure(404, "there is no such page\n")
 }
 
-pub fn answer_about(collection: &Collection, robot: &Shown, asked: &Asked) -> Reply {
-    about(collection, robot, asked).unwrap_or_else(|error| {
-        let status = match error {
-            ReadError::Missing | ReadError::NotAFile | ReadError::NotAUrdd => 404,
-            ReadError::LeavesRoot | ReadError::Path(_) => 403,
-            ReadError::Changed => 409,
-            _ => 500,
-        };
-        Reply::failure(status, format!("{error}\n"))
-    })
+pub fn cannot_be_done() -> Reply {
+    Reply::failure(405, "this cannot be done here\n")
 }
 
-fn about(collection: &Collection, robot: &Shown, asked: &Asked) -> Result<Reply, ReadError> {
+/// The response to a request about a robot whose files cannot be read.
+pub fn unread(error: ReadError) -> Reply {
+    let status = match error {
+        ReadError::Missing | ReadError::NotAFile | ReadError::NotAUrdd => 404,
+        ReadError::LeavesRoot | ReadError::Path(_) => 403,
+        ReadError::Changed => 409,
+        _ => 500,
+    };
+    Reply::failure(status, format!("{error}\n"))
+}
+
+/// The response to a request about a robot, by its method: GET, HEAD or POST.
+pub fn answer_about(
+    collection: &Collection,
+    robot: &Shown,
+    asked: (&str, &Asked),
+    body: &[u8],
+    ended: &Cancellation,
+) -> Result<Reply, ReadError> {
     Ok(match asked {
-        Asked::Revision => {
+        ("POST", Asked::Skips) => save::skips(robot, body),
+        ("POST", Asked::Configurations) => save::configuration(robot, body),
+        ("POST", Asked::States) => save::state(robot, body),
+        ("POST", Asked::Keep) => save::keep(robot, body),
+        ("POST", _) => cannot_be_done(),
+        ("GET", Asked::States) => robot.states.stream(ended),
+        (_, Asked::Revision) => {
             // Whoever asks for this shows the robot, or waits for it: see `live`.
             robot.see();
             // The entry first: a revision may be newer than what is said of the robot, and never older.
@@ -146,14 +162,14 @@ fn about(collection: &Collection, robot: &Shown, asked: &Asked) -> Result<Reply,
             let revision = robot.is_ready().then(|| revision::of(&robot.path()));
             Reply::json(&json!({ "revision": revision, "entry": entry }))
         }
-        Asked::Files => {
+        (_, Asked::Files) => {
             let (revision, opened) = robot.open()?;
             let name = opened.own.folder_name();
             let files = files(&opened.own)?;
             Reply::json(&json!({ "name": name, "files": files, "revision": revision }))
         }
-        Asked::Report => Reply::json_text(report_of(collection, robot)),
-        Asked::File(path) => {
+        (_, Asked::Report) => Reply::json_text(report_of(collection, robot)),
+        (_, Asked::File(path)) => {
             let (file, size) = robot.own_files()?.open_file(path)?;
             if size > MAX_FILE_BYTES {
                 return Err(ReadError::TooLarge { size, limit: MAX_FILE_BYTES });
@@ -161,12 +177,12 @@ fn about(collection: &Collection, robot: &Shown, asked: &Asked) -> Result<Reply,
             // Never displayed as a page.
             Reply::ok("application/octet-stream", Body::File(file, size))
         }
-        Asked::Summary => Reply::json(&entry_with(robot, &report_of(collection, robot))),
-        Asked::Picture => match picture_of(robot) {
+        (_, Asked::Summary) => Reply::json(&entry_with(robot, &report_of(collection, robot))),
+        (_, Asked::Picture) => match picture_of(robot) {
             Some(bytes) => Reply::ok("image/png", Body::Bytes(bytes)),
             None => Reply::nothing(),
         },
-        Asked::Skips | Asked::Configurations | Asked::Keep | Asked::States => no_page(),
+        (_, Asked::Skips | Asked::Configurations | Asked::Keep | Asked::States) => no_page(),
     })
 }
 

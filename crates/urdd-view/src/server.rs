@@ -7,12 +7,11 @@ use std::time::Duration;
 
 use thiserror::Error;
 
+use crate::cards;
 use crate::collection::{Collection, take};
 use crate::guard::{Caller, Connection, Connections, Guard};
 use crate::http::{Reply, Request, converse};
-use crate::route::{Asked, Route, answer, answer_about};
-use crate::shown::Shown;
-use crate::{cards, save};
+use crate::route::{Asked, Route, answer, answer_about, cannot_be_done, unread};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::hexadecimal::hexadecimal;
 
@@ -144,7 +143,9 @@ impl Answers {
                 Some(robot) if asked == Asked::Picture && method != "POST" && !robot.is_ready() => {
                     cards::answer(&robot, &|| is_gone() || ended.is_cancelled())
                 }
-                Some(robot) => self.about(&robot, (method, &asked), body, ended),
+                Some(robot) => {
+                    answer_about(all, &robot, (method, &asked), body, ended).unwrap_or_else(unread)
+                }
                 None => Reply::failure(404, "there is no such robot\n"),
             },
             ("GET" | "HEAD", route) => answer(all, &route, takes_brotli(request)),
@@ -152,28 +153,6 @@ impl Answers {
             _ => cannot_be_done(),
         }
     }
-
-    fn about(
-        &self,
-        robot: &Shown,
-        asked: (&str, &Asked),
-        body: &[u8],
-        ended: &Cancellation,
-    ) -> Reply {
-        match asked {
-            ("GET", Asked::States) => robot.states.stream(ended),
-            ("GET" | "HEAD", asked) => answer_about(&self.collection, robot, asked),
-            ("POST", Asked::Skips) => save::skips(robot, body),
-            ("POST", Asked::Configurations) => save::configuration(robot, body),
-            ("POST", Asked::States) => save::state(robot, body),
-            ("POST", Asked::Keep) => save::keep(robot, body),
-            _ => cannot_be_done(),
-        }
-    }
-}
-
-fn cannot_be_done() -> Reply {
-    Reply::failure(405, "this cannot be done here\n")
 }
 
 fn takes_brotli(request: &Request) -> bool {

@@ -4,9 +4,9 @@
 use std::fmt::{self, Write};
 
 use super::human::{self, times};
-use super::place::{file_in, is_inside};
 use super::programs::cell;
 use super::style::unit;
+use crate::run::{file_in, is_inside};
 use urdd_format::escape;
 use urdd_format::readable::counted;
 use urdd_format::report::{Report, Severity, Status, Urdd, Verdict};

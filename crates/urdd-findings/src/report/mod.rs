@@ -3,12 +3,16 @@
 pub mod github;
 pub mod human;
 pub mod junit;
-pub mod place;
 pub mod programs;
 pub mod sarif;
 pub mod style;
 #[doc(hidden)]
 pub mod summary;
+
+/// Paths of URDDs relative to the working directory.
+pub mod place {
+    pub use crate::run::{file_in, is_inside, places, relative};
+}
 
 use serde::Serialize;
 

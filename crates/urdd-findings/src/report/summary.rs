@@ -5,12 +5,12 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
-use super::place::file_in;
 use super::programs;
 use super::style::{
     BOLD, DIM, GREEN, MODEL_NOT_VERIFIED, RED, Style, YELLOW, not_verified, severity, unit,
 };
 use crate::code::Code;
+use crate::run::file_in;
 use urdd_format::escape::line as safe;
 use urdd_format::readable::counted;
 use urdd_format::report::{Consequence, Finding, Place, Report, Severity, Status, Urdd, Verdict};
@@ -326,48 +326,40 @@ pub struct Cause<'a> {
     pub borrowed: usize,
 }
 
-struct Gathered<'a> {
-    first: &'a Finding,
-    places: BTreeSet<(String, Option<&'a str>)>,
-    without_place: usize,
-    subjects: BTreeSet<(usize, Option<String>)>,
-    /// The URDDs, and whether an occurrence is in a file of its own.
-    urdds: BTreeMap<usize, bool>,
-}
-
 /// The causes of all findings: by severity, then by consequence, then by number of URDDs, each in descending order.
+/// Findings of one rule and one severity have one cause, regardless of module, link and URDD.
 pub fn causes<'a>(report: &'a Report) -> Vec<Cause<'a>> {
     let roots: BTreeSet<&str> = report.urdds.iter().map(|urdd| urdd.path.as_str()).collect();
-    let mut all: BTreeMap<(&str, Severity), Gathered> = BTreeMap::new();
+    let mut all: BTreeMap<(&str, Severity), Vec<(usize, &Finding)>> = BTreeMap::new();
     for (number, urdd) in report.urdds.iter().enumerate() {
         for finding in &urdd.findings {
             let key = (finding.code.as_str(), finding.severity);
-            let cause = all.entry(key).or_insert_with(|| Gathered {
-                first: finding,
-                places: BTreeSet::new(),
-                without_place: 0,
-                subjects: BTreeSet::new(),
-                urdds: BTreeMap::new(),
-            });
-            cause.without_place += finding.places_cut.get();
-            let mut own = finding.places_cut.get() > 0;
-            for place in &finding.places {
-                let file = file_in(&urdd.path, place.file.as_deref());
-                own |= place.file.is_none() || within(&file, &urdd.path) || !inside(&file, &roots);
-                cause.places.insert((file, place.pointer.as_deref()));
-                cause.subjects.insert((number, subject(place)));
-            }
-            *cause.urdds.entry(number).or_default() |= own;
+            all.entry(key).or_default().push((number, finding));
         }
     }
-    let cause = |cause: Gathered<'a>| {
-        let are_known = cause.subjects.iter().all(|(_, subject)| subject.is_some());
+    let cause = |found: Vec<(usize, &'a Finding)>| {
+        let (mut places, mut subjects, mut cut) = (BTreeSet::new(), BTreeSet::new(), 0);
+        // The URDDs, and whether an occurrence is in a file of its own.
+        let mut urdds: BTreeMap<usize, bool> = BTreeMap::new();
+        for (number, finding) in &found {
+            let root = &report.urdds[*number].path;
+            cut += finding.places_cut.get();
+            let mut own = finding.places_cut.get() > 0;
+            for place in &finding.places {
+                let file = file_in(root, place.file.as_deref());
+                own |= place.file.is_none() || within(&file, root) || !inside(&file, &roots);
+                places.insert((file, place.pointer.as_deref()));
+                subjects.insert((*number, subject(place)));
+            }
+            *urdds.entry(*number).or_default() |= own;
+        }
+        let are_known = subjects.iter().all(|(_, subject)| subject.is_some());
         Cause {
-            first: cause.first,
-            times: cause.places.len() + cause.without_place,
-            subjects: if are_known { cause.subjects.len() } else { 0 },
-            borrowed: cause.urdds.values().filter(|own| !**own).count(),
-            urdds: cause.urdds.keys().map(|number| report.urdds[*number].path.as_str()).collect(),
+            first: found[0].1,
+            times: places.len() + cut,
+            subjects: if are_known { subjects.len() } else { 0 },
+            borrowed: urdds.values().filter(|own| !**own).count(),
+            urdds: urdds.keys().map(|number| report.urdds[*number].path.as_str()).collect(),
         }
     };
     let mut causes: Vec<Cause> = all.into_values().map(cause).collect();
