@@ -13,9 +13,6 @@ use urdd_diff::{DiffError, Options, Side, TOLERANCE, compare, markdown, text};
 use urdd_source::{Settings, format_of};
 use urdd_validate::report;
 
-/// Exit status: the robots differ.
-const DIFFERENT: u8 = 1;
-
 /// Arguments of `urdd diff`.
 #[derive(Args)]
 #[command(
@@ -126,5 +123,5 @@ fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
         DiffFormat::Markdown => output::print_raw(&markdown(&found))?,
         DiffFormat::Json => output::print(&report::json(&found)?)?,
     }
-    Ok(if found.same { 0 } else { DIFFERENT })
+    Ok(u8::from(!found.same))
 }

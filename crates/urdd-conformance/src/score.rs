@@ -72,7 +72,8 @@ pub enum Fault {
 pub(crate) fn fault(plan: &Plan, item: &Item, end: &End) -> Option<Fault> {
     match item.is_about_reading {
         true => reading_fault(plan, item.verdict, end)
-            .filter(|fault| !is_good_enough(plan, *fault))
+            // SPEC 2.14 asks no validator for a status of its own: whoever gives none may reject.
+            .filter(|fault| *fault != UnreadableFault::Rejected || plan.unreadable_status.is_some())
             .map(Fault::Reading),
         false => case_fault(plan, item.verdict, end).map(Fault::Case),
     }
@@ -102,11 +103,6 @@ fn reading_fault(plan: &Plan, expected: Verdict, end: &End) -> Option<Unreadable
         (_, Verdict::Unreadable) if status == plan.reject_status => Some(UnreadableFault::Rejected),
         _ => Some(UnreadableFault::Undecided),
     }
-}
-
-/// SPEC 2.14 asks no validator for a status of its own: whoever gives none may reject.
-fn is_good_enough(plan: &Plan, fault: UnreadableFault) -> bool {
-    fault == UnreadableFault::Rejected && plan.unreadable_status.is_none()
 }
 
 /// Whether a rejection looks like a crash. It still counts as a rejection, with a warning.
