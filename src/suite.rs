@@ -14,11 +14,10 @@ use urdd_conformance::suite::Suite;
 
 /// Why there is no suite.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum CarriedError {
-    /// Its files cannot be read.
     #[error("the conformance suite cannot be read: {0}")]
     Read(#[from] io::Error),
-    /// It is damaged.
     #[error("the suite is damaged: {0}")]
     Suite(#[from] Damage),
 }

@@ -8,10 +8,10 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
+use super::arguments::value_of;
 use super::configurations::{self, Listed};
 use super::inputs;
 use super::output::{self, Failure};
-use super::words::value_of;
 use urdd_export::KINDS;
 use urdd_format::escape;
 use urdd_format::readable::counted;
@@ -71,7 +71,6 @@ const MAX_UNPRINTED: usize = 1 << 16;
 /// Number of pairs of links in a summary.
 const WORST: usize = 10;
 
-/// The configurations to check.
 enum Chosen<'a> {
     Listed(Listed),
     Random(&'a Configurations, u64),
@@ -231,7 +230,6 @@ fn as_json(
     let _ = writeln!(text, "{}", escape::json(&line.to_string()));
 }
 
-/// Lists the pairs of links that touch most often.
 fn list_worst(text: &mut String, often: BTreeMap<String, usize>) {
     let mut often: Vec<(String, usize)> = often.into_iter().collect();
     often.sort_by_key(|(_, count)| std::cmp::Reverse(*count));

@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::generate::MakingArguments;
 use super::generate_output::{FAILED, Printer};
-use super::making::MakingArguments;
-use super::output::{self, Failure};
-use super::signals::{self, Signals};
+use super::output::{self, Failure, Signals};
 use urdd_generate::batch::Observer;
 use urdd_generate::combine::{Recipe, check_parts, combine};
 use urdd_source::robots::Job;
@@ -62,10 +61,9 @@ pub struct CombineArguments {
     making: MakingArguments,
 }
 
-/// Runs `urdd combine`.
 pub fn run(arguments: &CombineArguments) -> Result<u8, Failure> {
     let stopped = "stopped by a signal; nothing was changed";
-    signals::run(Some(stopped), |signals| put_together(arguments, signals))
+    output::stoppable(Some(stopped), |signals| put_together(arguments, signals))
 }
 
 fn put_together(arguments: &CombineArguments, signals: &Signals) -> Result<u8, Failure> {

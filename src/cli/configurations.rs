@@ -18,17 +18,9 @@ const MAX_BYTES: u64 = 1 << 30;
 /// Configurations, stored one after another.
 #[derive(Debug, Default)]
 pub struct Listed {
-    /// The values of all of them.
     pub values: Vec<f64>,
     /// Number of configurations: a robot may have no DOFs.
     pub count: u64,
-}
-
-impl Listed {
-    fn push(&mut self, values: &[f64]) {
-        self.values.extend(values);
-        self.count += 1;
-    }
 }
 
 /// Configurations, line by line: each line is a JSON list with a value for each DOF, a JSON object of DOF names and values
@@ -40,7 +32,6 @@ pub struct Lines<'a> {
     begun: Option<Form>,
 }
 
-/// What the first line is.
 enum Form {
     Json,
     /// The DOF of each column.
@@ -65,8 +56,12 @@ impl<'a> Lines<'a> {
             Some(Form::Json) => of_json(self.robot, self.dofs, line).map(Some),
             _ if line.trim_start().starts_with('#') => Ok(None),
             Some(Form::Csv(columns)) => {
-                let values = numbers(&fields(line)?)?;
-                of_columns(self.dofs, columns.as_deref(), values).map(Some)
+                let given = check(self.dofs, numbers(&fields(line)?)?)?;
+                let mut values = given.clone();
+                for (dof, value) in columns.iter().flatten().zip(given) {
+                    values[*dof] = value;
+                }
+                Ok(Some(values))
             }
             None => {
                 let fields = fields(line)?;
@@ -111,7 +106,8 @@ pub fn read(robot: &Robot, file: &Path) -> Result<Listed, Failure> {
         let values = lines.next(line);
         let values = values.map_err(|why| format!("{name}:{}: {why}", number + 1))?;
         if let Some(values) = values {
-            found.push(&values);
+            found.values.extend(values);
+            found.count += 1;
         }
     }
     Ok(found)
@@ -153,7 +149,6 @@ fn of_json(robot: &Robot, dofs: &[String], line: &str) -> Result<Vec<f64>, Failu
     }
 }
 
-/// The fields of a line of CSV.
 fn fields(line: &str) -> Result<StringRecord, csv::Error> {
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
@@ -171,23 +166,6 @@ fn numbers(fields: &StringRecord) -> Result<Vec<f64>, String> {
         field.parse::<f64>().map_err(why)
     };
     fields.iter().map(parse).collect()
-}
-
-/// The configuration of a line, whose columns are in another order.
-fn of_columns(
-    dofs: &[String],
-    columns: Option<&[usize]>,
-    values: Vec<f64>,
-) -> Result<Vec<f64>, Failure> {
-    let given = check(dofs, values)?;
-    let Some(columns) = columns else {
-        return Ok(given);
-    };
-    let mut values = given.clone();
-    for (dof, value) in columns.iter().zip(given) {
-        values[*dof] = value;
-    }
-    Ok(values)
 }
 
 fn check(dofs: &[String], values: Vec<f64>) -> Result<Vec<f64>, Failure> {

@@ -4,18 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::inputs::advice;
-use super::output::{self, Failure};
-use super::signals::{self, Signals};
-use super::sources::{
+use super::arguments::{
     LoopsArguments, PackageArguments, RobotArguments, XacroArguments, only_arguments,
 };
+use super::inputs::advice;
+use super::output::{self, Failure, Signals};
 use urdd_diff::{DiffError, Options, Side, TOLERANCE, compare, markdown, text};
 use urdd_source::{Settings, format_of};
 use urdd_validate::report;
-
-/// Exit status: the robots differ.
-const DIFFERENT: u8 = 1;
 
 /// Arguments of `urdd diff`.
 #[derive(Args)]
@@ -86,9 +82,8 @@ impl DiffArguments {
     }
 }
 
-/// Runs `urdd diff`.
 pub fn run(arguments: &DiffArguments) -> Result<u8, Failure> {
-    signals::run(None, |signals| diff(arguments, signals))
+    output::stoppable(None, |signals| diff(arguments, signals))
 }
 
 fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
@@ -128,5 +123,5 @@ fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
         DiffFormat::Markdown => output::print_raw(&markdown(&found))?,
         DiffFormat::Json => output::print(&report::json(&found)?)?,
     }
-    Ok(if found.same { 0 } else { DIFFERENT })
+    Ok(u8::from(!found.same))
 }

@@ -4,8 +4,7 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::output::{self, Failure};
-use urdd_findings::description::Description;
-use urdd_findings::family::Family;
+use urdd_findings::description::{Description, Family};
 use urdd_format::escape;
 use urdd_validate::code::RetiredCode;
 use urdd_validate::report;

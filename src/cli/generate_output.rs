@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::IsTerminal;
 
 use clap::ValueEnum;
-use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use parking_lot::Mutex;
 use serde_json::{Value, json};
 
@@ -33,50 +33,42 @@ pub(super) enum ResultFormat {
     Json,
 }
 
-/// Prints results as they arrive.
 pub(super) struct Printer {
     format: ResultFormat,
     is_batch: bool,
-    bars: Option<Bars>,
+    /// Progress on a terminal: one bar for the batch, one for each robot in progress.
+    bars: MultiProgress,
+    batch: ProgressBar,
     unprinted: Mutex<Option<String>>,
     totals: Mutex<Totals>,
 }
 
-/// Counts over a batch.
 #[derive(Default)]
 struct Totals {
     unchanged: usize,
     meshes: MeshCount,
 }
 
-/// Progress on a terminal: one bar for the batch, one for each robot in progress.
-struct Bars {
-    all: MultiProgress,
-    batch: ProgressBar,
-}
-
 impl Printer {
     pub(super) fn new(format: ResultFormat, is_batch: bool) -> Self {
-        let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
-        let bars =
-            is_terminal.then(|| Bars { all: MultiProgress::new(), batch: ProgressBar::hidden() });
-        Printer { format, is_batch, bars, unprinted: Mutex::new(None), totals: Mutex::default() }
+        let target = match std::io::stderr().is_terminal() && !output::is_dumb() {
+            true => ProgressDrawTarget::stderr(),
+            false => ProgressDrawTarget::hidden(),
+        };
+        let (bars, batch) = (MultiProgress::with_draw_target(target), ProgressBar::hidden());
+        let (unprinted, totals) = (Mutex::new(None), Mutex::default());
+        Printer { format, is_batch, bars, batch, unprinted, totals }
     }
 
     /// Begins a batch of `total` robots.
     pub(super) fn begin_batch(&self, total: usize) {
-        if let Some(bars) = &self.bars {
-            let bar = bars.all.add(bars.batch.clone());
-            bar.set_length(total as u64);
-            bar.set_style(style("{bar:30} {pos}/{len} robots, {elapsed}"));
-        }
+        let bar = self.bars.add(self.batch.clone());
+        bar.set_length(total as u64);
+        bar.set_style(style("{bar:30} {pos}/{len} robots, {elapsed}"));
     }
 
-    /// Ends a batch.
     pub(super) fn end(&self, total: usize, failed: usize) {
-        if let Some(bars) = &self.bars {
-            bars.batch.finish_and_clear();
-        }
+        self.batch.finish_and_clear();
         let totals = self.totals.lock();
         let unchanged = totals.unchanged;
         let generated = total - failed - unchanged;
@@ -118,11 +110,7 @@ impl Printer {
 
     /// Prints to standard output, with the bars hidden meanwhile.
     fn print(&self, text: &str) {
-        let printed = match &self.bars {
-            Some(bars) => bars.all.suspend(|| output::print(text)),
-            None => output::print(text),
-        };
-        if let Err(message) = printed {
+        if let Err(message) = self.bars.suspend(|| output::print(text)) {
             self.unprinted.lock().get_or_insert(message);
         }
     }
@@ -136,28 +124,20 @@ impl Printer {
     }
 
     fn error(&self, text: &str) {
-        match &self.bars {
-            Some(bars) => bars.all.suspend(|| output::error(text)),
-            None => output::error(text),
-        }
+        self.bars.suspend(|| output::error(text));
     }
 }
 
 impl Observer for Printer {
     fn begin(&self, job: &Job) -> Box<dyn Progress> {
-        let bar = self.bars.as_ref().map(|bars| {
-            let bar = bars.all.add(ProgressBar::new(1));
-            bar.set_style(style("  {spinner} {prefix} {bar:20} {msg}"));
-            bar.set_prefix(escape::line(&job.name).into_owned());
-            bar
-        });
+        let bar = self.bars.add(ProgressBar::new(1));
+        bar.set_style(style("  {spinner} {prefix} {bar:20} {msg}"));
+        bar.set_prefix(escape::line(&job.name).into_owned());
         Box::new(RobotBar(bar))
     }
 
     fn done(&self, job: &Job, outcome: &Result<Generated, GenerateError>) {
-        if let (Some(bars), true) = (&self.bars, self.is_batch) {
-            bars.batch.inc(1);
-        }
+        self.batch.inc(1);
         if let Ok(made) = outcome {
             let mut totals = self.totals.lock();
             totals.unchanged += usize::from(!made.changed);
@@ -166,7 +146,12 @@ impl Observer for Printer {
             totals.meshes.not_a_mesh += made.meshes.not_a_mesh;
         }
         match (self.format, outcome) {
-            (ResultFormat::Json, outcome) => self.print(&line(&as_json(job, outcome))),
+            (ResultFormat::Json, Ok(made)) => self.print(&line(&as_json(job, made))),
+            (ResultFormat::Json, Err(error)) => {
+                let mut failed = failure(job, error.code(), error);
+                failed["error"]["faults"] = faults(error).into();
+                self.print(&line(&failed));
+            }
             (ResultFormat::Human, Ok(made)) => {
                 self.print(&summary(job, made));
                 for text in note_lines(&made.notes, self.is_batch) {
@@ -190,29 +175,23 @@ fn message(error: &GenerateError) -> String {
 }
 
 /// The bar of a robot, removed when the robot is finished.
-struct RobotBar(Option<ProgressBar>);
+struct RobotBar(ProgressBar);
 
 impl Progress for RobotBar {
     fn module(&self, kind: ModuleKind, done: usize, total: usize) {
-        if let Some(bar) = &self.0 {
-            bar.set_length(total as u64);
-            bar.set_position(done as u64);
-            bar.set_message(kind.name());
-        }
+        self.0.set_length(total as u64);
+        self.0.set_position(done as u64);
+        self.0.set_message(kind.name());
     }
 
     fn part(&self, kind: ModuleKind, done: usize, total: usize) {
-        if let Some(bar) = &self.0 {
-            bar.set_message(format!("{}, step {done} of {total}", kind.name()));
-        }
+        self.0.set_message(format!("{}, step {done} of {total}", kind.name()));
     }
 }
 
 impl Drop for RobotBar {
     fn drop(&mut self) {
-        if let Some(bar) = &self.0 {
-            bar.finish_and_clear();
-        }
+        self.0.finish_and_clear();
     }
 }
 
@@ -281,33 +260,26 @@ fn note_lines(notes: &[Note], is_batch: bool) -> Vec<String> {
     lines
 }
 
-fn as_json(job: &Job, outcome: &Result<Generated, GenerateError>) -> Value {
-    match outcome {
-        Ok(made) => json!({
-            "source": job.source.display().to_string(),
-            "output": job.name,
-            "status": if made.changed { "generated" } else { "unchanged" },
-            "robot": made.robot_name,
-            "links": made.num_links,
-            "joints": made.num_joints,
-            "dofs": made.num_dofs,
-            "class": made.class,
-            "modules": made.modules.iter().map(|module| json!({
-                "name": module.kind.name(), "kept": module.kept,
-            })).collect::<Vec<_>>(),
-            "meshes": {
-                "named": made.meshes.named,
-                "not_found": made.meshes.not_found,
-                "not_usable": made.meshes.not_usable,
-            },
-            "notes": made.notes.iter().map(note_as_json).collect::<Vec<_>>(),
-        }),
-        Err(error) => {
-            let mut failed = failure(job, error.code(), error);
-            failed["error"]["faults"] = faults(error).into();
-            failed
-        }
-    }
+fn as_json(job: &Job, made: &Generated) -> Value {
+    json!({
+        "source": job.source.display().to_string(),
+        "output": job.name,
+        "status": if made.changed { "generated" } else { "unchanged" },
+        "robot": made.robot_name,
+        "links": made.num_links,
+        "joints": made.num_joints,
+        "dofs": made.num_dofs,
+        "class": made.class,
+        "modules": made.modules.iter().map(|module| json!({
+            "name": module.kind.name(), "kept": module.kept,
+        })).collect::<Vec<_>>(),
+        "meshes": {
+            "named": made.meshes.named,
+            "not_found": made.meshes.not_found,
+            "not_usable": made.meshes.not_usable,
+        },
+        "notes": made.notes.iter().map(note_as_json).collect::<Vec<_>>(),
+    })
 }
 
 fn failure(job: &Job, code: &str, error: &impl ToString) -> Value {
@@ -320,7 +292,7 @@ fn failure(job: &Job, code: &str, error: &impl ToString) -> Value {
 }
 
 fn combined_as_json(job: &Job, made: &Combined) -> Value {
-    let mut object = as_json(job, &Ok(made.generated.clone()));
+    let mut object = as_json(job, &made.generated);
     let parts = made.composition.parts.iter();
     object["parts"] = parts
         .map(|part| json!({ "id": part.id, "name": part.name, "links": part.links.len() }))

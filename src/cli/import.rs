@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::arguments::PackageArguments;
 use super::output::{self, Failure, shown};
-use super::sources::PackageArguments;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::outputs::{Output, Target};
 use urdd_format::readable::counted;

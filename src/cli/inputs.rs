@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::arguments::{around, only_arguments};
 use super::output::{self, Failure, about, one_line, shown};
-use super::signals;
-use super::sources::{around, only_arguments};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA};
 use urdd_directory::file_type::FileType;
@@ -64,7 +63,7 @@ pub fn with_srdf(
     files: &SrdfArguments,
     work: impl FnOnce(&str) -> Result<String, Failure>,
 ) -> Result<u8, Failure> {
-    signals::run(None, |signals| {
+    output::stoppable(None, |signals| {
         let text = srdf_or_xacro(files, &signals.cancellation())?;
         output::print(&work(&text)?)?;
         Ok(0)
@@ -91,7 +90,6 @@ fn srdf_or_xacro(
     Ok(read_source(file, &settings, cancellation).map_err(one_line)?.text)
 }
 
-/// The text of an SRDF.
 pub fn srdf(file: &Path) -> Result<String, Failure> {
     text(file, MAX_SRDF_BYTES)
 }
@@ -108,53 +106,53 @@ pub fn advice(error: &DiscoverError) -> String {
     let DiscoverError::NotAFolder { path } = error else {
         return one_line(error);
     };
-    format!("{}: {}", one_line(path), of_file(Path::new(path)).unwrap_or(NEITHER))
+    format!("{}: {}", one_line(path), of_file(Path::new(path)))
 }
 
 /// What a file is: by its content, and by its name where that does not say.
-fn of_file(path: &Path) -> Option<&'static str> {
-    match RobotFile::at(path) {
-        Some(RobotFile::Urdf) => Some(URDF),
-        Some(RobotFile::Xacro) => Some(XACRO),
-        Some(RobotFile::Srdf) => Some(SRDF),
-        Some(RobotFile::Imported(Format::Mjcf)) => Some(MJCF),
-        Some(RobotFile::Imported(Format::Sdf)) => Some(SDF),
-        Some(RobotFile::Imported(Format::Usd)) => Some(USD),
-        None => match FileType::of(path)? {
-            FileType::Sdf => Some(SDF),
-            FileType::Mjcf => Some(MJCF),
-            FileType::Usd => Some(USD),
-            FileType::Document => Some(DOCUMENT),
-            _ => None,
-        },
+fn of_file(path: &Path) -> &'static str {
+    let by_content = RobotFile::at(path);
+    let by_name = FileType::of(path).filter(|_| by_content.is_none());
+    match (by_content, by_name) {
+        (Some(RobotFile::Urdf), _) => {
+            "this is a URDF; `urdd generate` makes a URDD of it, `urdd lint` checks it"
+        }
+        (Some(RobotFile::Xacro), _) => {
+            "this is a xacro file; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd diff` compares it"
+        }
+        (Some(RobotFile::Srdf), _) => {
+            "this is SRDF, which adds groups and skipped collisions to a URDF; give the URDF that it belongs to, or a URDD"
+        }
+        (Some(RobotFile::Imported(Format::Sdf)), _) | (_, Some(FileType::Sdf)) => {
+            "this is SDF; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd import` makes a URDF"
+        }
+        (Some(RobotFile::Imported(Format::Mjcf)), _) | (_, Some(FileType::Mjcf)) => {
+            "this is MJCF, the format of MuJoCo; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd import` \
+             makes a URDF"
+        }
+        (Some(RobotFile::Imported(Format::Usd)), _) | (_, Some(FileType::Usd)) => {
+            "this is USD; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd import` makes a URDF"
+        }
+        (_, Some(FileType::Document)) => {
+            "a URDD is a folder, not a single file; give the folder that contains urdd.json and the module folders"
+        }
+        _ => {
+            "this is a file, but neither a URDF nor a URDD (a folder that holds urdd.json or the module folders, or a zip \
+             archive of one)"
+        }
     }
 }
-
-const NEITHER: &str = "this is a file, but neither a URDF nor a URDD \
-    (a folder that holds urdd.json or the module folders, or a zip archive of one)";
-const URDF: &str = "this is a URDF; `urdd generate` makes a URDD of it, `urdd lint` checks it";
-const XACRO: &str = "this is a xacro file; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd diff` compares it";
-const SRDF: &str = "this is SRDF, which adds groups and skipped collisions to a URDF; \
-    give the URDF that it belongs to, or a URDD";
-const SDF: &str = "this is SDF; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd import` makes a URDF";
-const MJCF: &str = "this is MJCF, the format of MuJoCo; `urdd generate` makes a URDD of it, `urdd lint` checks it, \
-    `urdd import` makes a URDF";
-const USD: &str = "this is USD; `urdd generate` makes a URDD of it, `urdd lint` checks it, `urdd import` makes a URDF";
-const DOCUMENT: &str = "a URDD is a folder, not a single file; give the folder that contains urdd.json and the module folders";
 
 /// Maximum number of attempts while another program writes to the URDD.
 const MAX_TRIES: usize = 5;
 
-/// An edit.
 pub struct Edited {
     /// The files that change.
     pub files: Files,
-    /// What to print.
     pub told: String,
 }
 
 impl Edited {
-    /// Nothing changes.
     pub fn unchanged(told: String) -> Self {
         Edited { files: Files::new(), told }
     }

@@ -6,10 +6,9 @@ use std::sync::Arc;
 use clap::Args;
 use similar::TextDiff;
 
-use super::output::{self, Color, Failure, about, one_line, shown};
-use super::reporting::ReportArguments;
-use super::signals::{self, Signals};
-use super::sources::{LoopsArguments, PackageArguments, XacroArguments, split};
+use super::arguments::{LoopsArguments, PackageArguments, XacroArguments, split};
+use super::output::{self, Color, Failure, Signals, about, one_line, shown};
+use super::validate::ReportArguments;
 use urdd_findings::baseline::Baseline;
 use urdd_findings::settings::parse_program;
 use urdd_findings::settings_file::{SETTINGS_FILE, SettingsFile};
@@ -79,9 +78,8 @@ pub struct LintArguments {
     xacro: XacroArguments,
 }
 
-/// Runs `urdd lint`.
 pub fn run(arguments: &LintArguments, color: Color) -> Result<u8, Failure> {
-    signals::run(None, |signals| lint(arguments, color, signals))
+    output::stoppable(None, |signals| lint(arguments, color, signals))
 }
 
 fn lint(arguments: &LintArguments, color: Color, signals: &Signals) -> Result<u8, Failure> {

@@ -1,10 +1,12 @@
 //! The command line: parses arguments and prints text. Everything else is in the library.
 
+mod arguments;
 mod check_collisions;
 mod combine;
 mod configurations;
 mod conformance;
 mod diff;
+mod edits;
 mod explain;
 mod export;
 mod generate;
@@ -13,20 +15,12 @@ mod import;
 mod info;
 mod inputs;
 mod lint;
-mod making;
-mod named_configurations;
 mod output;
 mod picture;
 mod rehash;
-mod reporting;
 mod schema;
-mod signals;
-mod skips;
-mod sources;
-mod spheres;
 mod validate;
 mod view;
-mod words;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -85,13 +79,13 @@ enum Command {
     Export(export::ExportArguments),
     /// Import edits of the skips from an SRDF.
     #[command(subcommand)]
-    Skips(skips::SkipsCommand),
+    Skips(edits::SkipsCommand),
     /// Import spheres of links: cuRobo's YAML, Foam's JSON, a URDF with spheres.
     #[command(subcommand)]
-    Spheres(spheres::SpheresCommand),
+    Spheres(edits::SpheresCommand),
     /// List, set and remove named configurations: home, ready.
     #[command(subcommand)]
-    Configurations(named_configurations::ConfigurationsCommand),
+    Configurations(edits::ConfigurationsCommand),
     /// Explain a rule, or list all rules.
     Explain(explain::ExplainArguments),
     /// Show what a URDD contains, without validating it.
@@ -136,9 +130,9 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Command::View(arguments) => view::run(&arguments),
         Command::Picture(arguments) => picture::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
-        Command::Skips(command) => skips::run(&command),
-        Command::Spheres(command) => spheres::run(&command),
-        Command::Configurations(command) => named_configurations::run(&command),
+        Command::Skips(command) => edits::skips(&command),
+        Command::Spheres(command) => edits::spheres(&command),
+        Command::Configurations(command) => edits::configurations(&command),
         Command::Explain(arguments) => printed(explain::run(&arguments)),
         Command::Info(arguments) => printed(info::run(&arguments)),
         Command::Rehash(arguments) => Ok(rehash::run(&arguments)),

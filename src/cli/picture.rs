@@ -4,18 +4,17 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::arguments::{PackageArguments, XacroArguments, split};
 use super::configurations::Lines;
 use super::inputs;
-use super::output::{self, Failure, about, shown};
-use super::signals::{self, Signals};
-use super::sources::{PackageArguments, XacroArguments, split};
+use super::output::{self, Failure, Signals, about, shown};
 use urdd_directory::root::Root;
 use urdd_directory::source::{Memory, is_archive};
 use urdd_format::readable::counted;
-use urdd_generate::{Selection, Settings, generate_in_memory};
+use urdd_generate::{Settings, generate_in_memory};
 use urdd_robot::Robot;
 use urdd_source::note::{Note, NoteKind};
-use urdd_view::picture::{Drawing, MAX_SIDE, MODULES, png};
+use urdd_view::picture::{Drawing, MAX_SIDE, modules, png};
 
 /// Maximum number of meshes that are named as not drawn.
 const MOST_NOTES: usize = 5;
@@ -76,9 +75,8 @@ fn direction(word: &str) -> Result<[f64; 3], String> {
     values.filter(is_direction).ok_or_else(|| message.to_owned())
 }
 
-/// Runs `urdd picture`.
 pub fn run(arguments: &PictureArguments) -> Result<u8, Failure> {
-    signals::run(None, |signals| {
+    output::stoppable(None, |signals| {
         let (paths, words) = split(&arguments.paths);
         let [path] = paths.as_slice() else {
             let count = counted(paths.len(), "path");
@@ -108,7 +106,7 @@ fn generated(
     signals: &Signals,
 ) -> Result<Robot, Failure> {
     let settings = Settings {
-        selection: Selection::parse(MODULES.iter().copied())?,
+        selection: modules(),
         source: urdd_source::Settings {
             xacro: arguments.xacro.settings(words),
             ..arguments.packages.settings()?

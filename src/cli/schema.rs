@@ -65,7 +65,6 @@ impl Open {
     }
 }
 
-/// Runs `urdd schema`.
 pub fn run(command: &SchemaCommand) -> Result<u8, Failure> {
     let mut status = 0;
     let text = match command {
@@ -95,15 +94,10 @@ fn table() -> String {
     let mut rows = vec![["id", "profile", "class", "folder"].map(str::to_owned)];
     rows.extend(Subject::all().map(|subject| {
         let (profile, class, folder) = match subject {
-            Subject::FirstReport
-            | Subject::Report
-            | Subject::DiffReport
-            | Subject::EarlierDiffReport(_)
-            | Subject::ProducerResult
-            | Subject::FirstValidatorResult
-            | Subject::ValidatorResult => (Profile::V1, None, "-"),
             Subject::RootMetadata => (Profile::V1, None, "."),
             Subject::Module(spec) => (spec.profile, spec.kind.class(), spec.kind.folder()),
+            // Reports and results of the conformance suite.
+            _ => (Profile::V1, None, "-"),
         };
         [
             subject.id(),
@@ -171,7 +165,6 @@ fn begin_extension(arguments: &NewExtensionArguments) -> Result<String, Failure>
     ))
 }
 
-/// Adds it to a URDD.
 fn add_extension(parent: &Path, module: &str) -> Result<String, Failure> {
     let urdd = Urdd::read(parent).map_err(one_line)?;
     let joints = urdd.robot().map(|robot| robot.joints.len());
@@ -185,7 +178,6 @@ fn add_extension(parent: &Path, module: &str) -> Result<String, Failure> {
     ))
 }
 
-/// The files of the module.
 fn extension_files(module: &str, joints: Option<usize>) -> [(&'static str, String); 4] {
     let made = new_extension(module, joints);
     let mut yaml = String::new();

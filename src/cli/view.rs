@@ -8,11 +8,10 @@ use std::time::Duration;
 
 use clap::Args;
 
+use super::arguments::{LoopsArguments, PackageArguments, RobotArguments, XacroArguments, split};
 use super::configurations::Lines;
 use super::generate_output::{FAILED, Printer, ResultFormat};
-use super::output::{self, Failure, one_line};
-use super::signals::Signals;
-use super::sources::{LoopsArguments, PackageArguments, RobotArguments, XacroArguments, split};
+use super::output::{self, Failure, Signals, one_line};
 use urdd_directory::discover::DiscoverError;
 use urdd_directory::file_type::FileType;
 use urdd_directory::temporary::Temporary;
@@ -114,10 +113,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         .with_settings(settings.clone());
     let counts = add(&paths, &settings.source, &collection)?;
     let robots = collection.robots();
-    let opens = match arguments.compare {
-        true => Some(comparison(&paths, &counts, &robots)?),
-        false => None,
-    };
+    let opens = arguments.compare.then(|| comparison(&paths, &counts, &robots)).transpose()?;
     let live = Live {
         folder: temporary.path(),
         settings: &settings,

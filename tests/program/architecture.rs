@@ -116,7 +116,7 @@ fn files_are_written_by_one_way() {
         "urdd-directory/src/temporary.rs",
         "urdd-directory/src/writer.rs",
         "urdd-lint/src/fix.rs",
-        "urdd-view/src/site_list.rs",
+        "urdd-view/src/site.rs",
     ];
     let mut found = BTreeSet::new();
     for folder in sources().into_iter().chain([repository().join("python/src")]) {

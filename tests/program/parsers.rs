@@ -54,8 +54,8 @@ const OTHERS: &[&str] = &[
 
 /// Files that read JSON by `serde_json`, and what bounds the text. All else is read by `urdd_directory::json`.
 const JSON: &[(&str, &str)] = &[
-    ("crates/urdd-conformance/src/catalogue.rs", "the suite's own"),
     ("crates/urdd-conformance/src/data.rs", "the suite's own"),
+    ("crates/urdd-conformance/src/export.rs", "the suite's own"),
     ("crates/urdd-conformance/src/refused.rs", "MAX_DOCUMENT_BYTES"),
     ("crates/urdd-conformance/src/suite.rs", "the suite's own"),
     ("crates/urdd-directory/src/json.rs", "the door: MAX_DOCUMENT_BYTES and DEPTH_LIMIT"),
@@ -68,12 +68,12 @@ const JSON: &[(&str, &str)] = &[
     ("crates/urdd-generate/src/donor/mod.rs", "MAX_DOCUMENT_BYTES"),
     ("crates/urdd-geometry/src/read/gltf/mod.rs", "a mesh within MAX_DOCUMENT_BYTES"),
     ("crates/urdd-source/src/xacro.rs", "what the module beside xacro notes; 64 MiB"),
-    ("crates/urdd-view/src/drops.rs", "MAX_BODY"),
+    ("crates/urdd-view/src/collection.rs", "MAX_DROP"),
+    ("crates/urdd-view/src/http.rs", "the limit of a request's body"),
     ("crates/urdd-view/src/one_file.rs", "MAX_DOCUMENT_BYTES, MAX_ROBOT_BYTES, the program's own"),
-    ("crates/urdd-view/src/reply.rs", "the limit of a request's body"),
     ("crates/urdd-view/src/report.rs", "the program's own"),
     ("crates/urdd-view/src/route.rs", "the program's own"),
-    ("crates/urdd-view/src/site_list.rs", "MAX_LIST_BYTES"),
+    ("crates/urdd-view/src/site.rs", "MAX_LIST_BYTES"),
     ("src/cli/configurations.rs", "a line of a file within MAX_BYTES"),
     ("src/cli/conformance/common.rs", "MAX_LOG_LINE"),
     ("wasm/src/export.rs", "the page's own"),
@@ -91,8 +91,8 @@ const WHOLE_FILES: &[(&str, &str)] = &[
     ("crates/urdd-generate/src/donor/mod.rs", "two files of one size in the output"),
     ("crates/urdd-robot/src/batch.rs", "of the system"),
     ("crates/urdd-source/src/process/linux.rs", "of the system"),
-    ("crates/urdd-view/src/drops.rs", "what was just written"),
-    ("src/cli/signals.rs", "of the system"),
+    ("crates/urdd-view/src/collection.rs", "what was just written"),
+    ("src/cli/output.rs", "of the system"),
     ("src/suite/archive.rs", "the suite's own"),
 ];
 

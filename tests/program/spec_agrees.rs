@@ -10,7 +10,7 @@ use std::fs;
 
 use urdd_findings::code::{Code, RETIRED};
 use urdd_findings::description::Severity;
-use urdd_findings::family::{FAMILIES, Family};
+use urdd_findings::description::{FAMILIES, Family};
 use urdd_format::registry::{FIRST_SPEC_VERSION, ModuleKind};
 use urdd_validate::rules;
 

@@ -16,6 +16,8 @@ mod computed;
 mod connections;
 mod dof;
 mod extensions;
+#[path = "../../crates/urdd-conformance/tests/conformance/judge.rs"]
+mod judge;
 mod kinematics;
 mod learned;
 mod loops;

@@ -8,9 +8,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use urdd_conformance::case::{Case, CaseKind};
-use urdd_conformance::judge;
-use urdd_conformance::suite::Suite;
+use urdd_conformance::suite::{Case, CaseKind, Suite};
 use urdd_findings::description::Description;
 use urdd_findings::finding::Finding;
 use urdd_format::report::Severity as Shown;
@@ -18,6 +16,8 @@ use urdd_validate::rule::{CheckOf, Rule};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_with;
+
+use crate::judge;
 
 /// The substitute for the rule of a case.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

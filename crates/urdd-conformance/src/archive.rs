@@ -4,14 +4,12 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::Path;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use flate2::write::DeflateEncoder;
 use flate2::{Compression, Crc};
 use serde::Deserialize;
 
 use crate::data::URDD;
-use crate::tree::{FilePath, Node, Tree, TreeError, make_folder, write_file};
+use crate::tree::{Base64, FilePath, Node, Tree, TreeError, make_folder, write_file};
 
 /// Where in its archive a URDD is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -35,7 +33,6 @@ pub struct Oddities {
     between: String,
     /// Text after the archive's end.
     after: String,
-    /// The archive's comment.
     comment: String,
     /// Number of this part of a split archive; a whole one is part 0.
     part: u16,
@@ -77,7 +74,6 @@ struct Said {
     size: Option<u32>,
     /// The Unix mode. Only the list has it.
     mode: Option<u32>,
-    /// The extra field.
     extra_base64: Option<Base64>,
 }
 
@@ -86,18 +82,6 @@ struct Said {
 enum Descriptor {
     WithSignature,
     WithoutSignature,
-}
-
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
-#[serde(try_from = "String")]
-struct Base64(Vec<u8>);
-
-impl TryFrom<String> for Base64 {
-    type Error = base64::DecodeError;
-
-    fn try_from(text: String) -> Result<Base64, Self::Error> {
-        STANDARD.decode(text).map(Base64)
-    }
 }
 
 /// Version 2.0 of the format, which has folders and deflated entries.

@@ -9,8 +9,7 @@ use std::time::{Duration, Instant};
 
 use parking_lot::Mutex;
 
-use crate::printed_codes::Scan;
-use crate::process::{End, Ran, Tail, command};
+use crate::process::{End, Ran, Scan, Tail, command};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_source::process::Running;
 
@@ -25,7 +24,6 @@ pub struct Batch<'a> {
     idle: Mutex<Vec<Judge>>,
 }
 
-/// A process that judges.
 struct Judge {
     input: ChildStdin,
     answers: Receiver<String>,

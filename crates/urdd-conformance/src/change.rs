@@ -3,13 +3,11 @@
 
 use std::collections::BTreeSet;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use json_patch::Patch;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use crate::tree::{FilePath, Node, Tree};
+use crate::tree::{Base64, FilePath, Node, Tree};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::{canonical, file_entry, json};
 
@@ -76,8 +74,8 @@ pub enum Action {
         at: usize,
         /// Number of bytes to remove.
         remove: usize,
-        /// Bytes to insert, in base64.
-        insert_base64: String,
+        /// Bytes to insert.
+        insert_base64: Base64,
     },
     /// Repeats a text, so that a large file is a small case.
     Repeat {
@@ -90,8 +88,8 @@ pub enum Action {
     },
     /// Writes this text to the file.
     Write(String),
-    /// Writes these bytes, in base64, to the file.
-    WriteBase64(String),
+    /// Writes these bytes to the file.
+    WriteBase64(Base64),
     /// Truncates the file to this many bytes.
     CutTo(usize),
     /// Deletes the file, or the folder with its contents.
@@ -119,28 +117,20 @@ impl<'de> Deserialize<'de> for Yes {
 
 /// How a change does not fit its file.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum Misfit {
-    /// The file does not exist.
     #[error("there is no such file to change")]
     Missing,
-    /// The file to copy does not exist.
     #[error("there is no {0} to copy")]
     NoOriginal(FilePath),
-    /// Not a JSON document.
     #[error("this is not JSON, and cannot be patched")]
     NotJson,
-    /// The patch does not apply.
     #[error(transparent)]
     Patch(#[from] json_patch::PatchError),
-    /// The text to replace does not occur.
     #[error("the text {0:?} was not found")]
     NotThere(String),
-    /// The bytes to replace are beyond the end of the file, or there would be too many.
     #[error("the file is too short or too long for this change")]
     Outside,
-    /// Not base64.
-    #[error("not base64: {0}")]
-    Base64(#[from] base64::DecodeError),
 }
 
 impl Change {
@@ -156,14 +146,14 @@ impl Change {
             Action::LinkTo(target) => return self.become_node(Node::Link(target.clone()), tree),
             Action::Folder(Yes) => return self.become_node(Node::Folder, tree),
             Action::Write(text) => text.as_bytes().to_vec(),
-            Action::WriteBase64(text) => STANDARD.decode(text)?,
+            Action::WriteBase64(Base64(bytes)) => bytes.clone(),
             Action::Replace { from, by } => self.replaced(from, by, 1, tree)?,
             Action::ReplaceAll { from, by } => self.replaced(from, by, usize::MAX, tree)?,
-            Action::Splice { at, remove, insert_base64 } => {
+            Action::Splice { at, remove, insert_base64: Base64(insert) } => {
                 let mut bytes = self.bytes(tree)?.to_vec();
                 let end = at.checked_add(*remove).filter(|end| *end <= bytes.len());
                 let end = end.ok_or(Misfit::Outside)?;
-                bytes.splice(*at..end, STANDARD.decode(insert_base64)?);
+                bytes.splice(*at..end, insert.iter().copied());
                 bytes
             }
             Action::Repeat { at, text, times } => {
@@ -201,7 +191,6 @@ impl Change {
         Ok(text.replacen(from, by, most).into_bytes())
     }
 
-    /// Removes the file, or all below the folder.
     fn clear(&self, tree: &mut Tree) -> Result<(), Misfit> {
         let before = tree.nodes.len();
         tree.nodes.retain(|path, _| !path.is_within(&self.file));

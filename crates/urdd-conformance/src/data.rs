@@ -1,6 +1,12 @@
-//! The suite's files: whoever runs it brings them, as `conformance/` of the repository has them.
+//! The suite's files: whoever runs it brings them, as `conformance/` of the repository has them. And the valid URDDs that
+//! `urdd generate` writes for the suite's robots: stored are `urdd.json`, which has the sizes and hashes of all other files,
+//! and small documents.
 
 use std::collections::BTreeMap;
+use std::path::Path;
+
+use crate::tree::{FilePath, Node, Tree, TreeError};
+use urdd_directory::discover::ROOT_METADATA;
 
 /// Files by path, with forward slashes.
 pub type Files = BTreeMap<String, Vec<u8>>;
@@ -28,6 +34,9 @@ pub const URDD: &str = "robot";
 pub const PACKED: &str = "robot.zip";
 /// Numeric reference values.
 pub const VECTORS: &str = "vectors";
+
+/// Size limit of stored documents, bytes.
+const LARGEST_KEPT: usize = 64 * 1024;
 
 /// What is wrong with the suite.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -81,6 +90,46 @@ impl Data {
     pub fn file(&self, path: &str) -> Option<&[u8]> {
         self.0.get(path).map(Vec::as_slice)
     }
+
+    /// Names of the suite's robots, sorted.
+    pub fn robots(&self) -> Vec<String> {
+        let names = self.below(ROBOTS).filter_map(|(path, _)| path.strip_suffix(".urdf"));
+        names.filter(|name| !name.contains('/')).map(str::to_owned).collect()
+    }
+
+    /// Writes the robots into a folder: the URDFs and the files that they name.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write_robots(&self, folder: &Path) -> Result<(), TreeError> {
+        let mut tree = Tree::of(self.below(ROBOTS), "");
+        // Leave out the scripts that generate the robots.
+        let scripts = FilePath::from("make");
+        tree.nodes.retain(|path, _| !path.is_within(&scripts));
+        tree.write(folder)
+    }
+
+    /// The stored part of a robot's valid URDD.
+    pub fn carried(&self, robot: &str) -> Tree {
+        Tree::of(self.below(&valid_id(robot)), "")
+    }
+}
+
+/// The id of a robot's valid URDD, which is also its folder in the suite.
+pub fn valid_id(robot: &str) -> String {
+    format!("{VALID}/{robot}")
+}
+
+/// The part of a valid URDD that the repository stores.
+pub fn kept(urdd: &Tree) -> Tree {
+    let is_kept = |path: &FilePath, node: &Node| {
+        let path = path.as_str().unwrap_or_default();
+        let small = matches!(node, Node::File(bytes) if bytes.len() <= LARGEST_KEPT);
+        path == ROOT_METADATA || small && path.ends_with("/module.json")
+    };
+    let mut kept = urdd.clone();
+    kept.nodes.retain(|path, node| is_kept(path, node));
+    kept
 }
 
 #[cfg(test)]

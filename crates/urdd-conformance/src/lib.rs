@@ -2,27 +2,19 @@
 //!
 //! The conformance suite: its cases, and what runs a producer or a validator on them (`urdd conformance`).
 //!
-//! The caller brings the suite's files ([`data::Data`]); `conformance/README.md` describes them. A [`case::Case`] is a
+//! The caller brings the suite's files ([`data::Data`]); `conformance/README.md` describes them. A [`suite::Case`] is a
 //! base with changes. It becomes a [`tree::Tree`], which is written to disk for validation.
 
 mod archive;
 mod batch;
-pub mod case;
-pub mod catalogue;
 pub mod change;
 pub mod data;
 pub mod export;
-pub mod judge;
-mod plan;
-mod printed_codes;
 pub mod process;
 pub mod producer;
-mod profile;
 pub mod refused;
 pub mod running;
 mod score;
-pub mod skips;
 pub mod suite;
 pub mod tree;
-pub mod valid;
 pub mod validator;

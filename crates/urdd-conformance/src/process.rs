@@ -1,4 +1,4 @@
-//! Runs an external command with a time limit, and ends all its child processes with it.
+//! Runs an external command with a time limit, ends all its child processes with it, and finds codes of rules in what it prints.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::io::Read;
@@ -10,7 +10,6 @@ use std::time::{Duration, Instant};
 
 use parking_lot::Mutex;
 
-use crate::printed_codes::Scan;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_source::process::{Ended, PAUSE, Running};
 use urdd_validate::code::Code;
@@ -94,14 +93,12 @@ pub struct Template {
 
 /// Why a command is invalid.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum TemplateError {
-    /// The command is empty.
     #[error("no command given; give it after `--`")]
     Empty,
-    /// A placeholder is missing.
     #[error("the command has no {{{0}}}; put it where the path belongs")]
     Missing(&'static str),
-    /// A placeholder where there is none.
     #[error("with --batch, folders are lines of standard input: leave {{{0}}} out of the command")]
     Batch(&'static str),
 }
@@ -227,11 +224,56 @@ impl Tail {
     }
 }
 
-#[cfg(all(test, unix))]
-#[allow(clippy::unwrap_used)] // Clippy sees no test in `all(test, unix)`.
+/// Length of a code: three letters, three digits.
+const LENGTH: usize = 6;
+
+/// Searches a stream in pieces for codes of rules. A code does not count inside a longer word, nor as a folder of a path: the folder of a
+/// case has the name of its code.
+#[derive(Debug)]
+pub struct Scan {
+    /// The byte before the next possible code, and all after it.
+    rest: Vec<u8>,
+    found: BTreeSet<Code>,
+}
+
+impl Default for Scan {
+    fn default() -> Scan {
+        Scan { rest: vec![b'\n'], found: BTreeSet::new() }
+    }
+}
+
+impl Scan {
+    /// Searches the next piece.
+    pub fn read(&mut self, piece: &[u8]) {
+        self.rest.extend(piece);
+        let is_word = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
+        for window in self.rest.windows(LENGTH + 2) {
+            let [before, code @ .., after] = window else { continue };
+            let (letters, digits) = code.split_at(3);
+            let has_form =
+                letters.iter().all(u8::is_ascii_uppercase) && digits.iter().all(u8::is_ascii_digit);
+            if !has_form || is_word(*before) || is_word(*after) || matches!(after, b'/' | b'\\') {
+                continue;
+            }
+            let code = std::str::from_utf8(code).ok().and_then(Code::parse);
+            self.found.extend(code);
+        }
+        let searched = self.rest.len().saturating_sub(LENGTH + 1);
+        self.rest.drain(..searched);
+    }
+
+    /// All codes, at the end of the stream.
+    pub fn finish(mut self) -> BTreeSet<Code> {
+        self.read(b"\n");
+        self.found
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
+    #[cfg(unix)]
     fn run(script: &str, limit: u64) -> Ran {
         let words = ["sh", "-c", script, "sh", "{dir}"].map(str::to_owned);
         let template = Template::new(&words, &["dir"]).unwrap();
@@ -240,6 +282,7 @@ mod tests {
         template.run(&paths, limit, &Cancellation::default()).unwrap()
     }
 
+    #[cfg(unix)]
     #[test]
     fn tells_how_it_ended_and_what_it_said() {
         let ran = run("echo \"got $1\"; echo bad >&2; exit 3", 20_000);
@@ -252,6 +295,7 @@ mod tests {
         assert_eq!(codes, [Code::DOF003, Code::CHN001].into());
     }
 
+    #[cfg(unix)]
     #[test]
     fn what_it_started_ends_with_it() {
         let folder = tempfile::tempdir().unwrap();
@@ -265,6 +309,7 @@ mod tests {
         assert!(!file.exists(), "a child outlived the time limit");
     }
 
+    #[cfg(unix)]
     #[test]
     fn commands_must_ask_for_their_paths() {
         let words = ["a".to_owned(), "{dir}/b".to_owned()];
@@ -276,5 +321,24 @@ mod tests {
         let ran = Template::new(&missing, &[]).unwrap();
         let ran = ran.run(&[], Duration::from_secs(1), &Cancellation::default());
         assert!(matches!(ran.unwrap().end, End::NotStarted(_)));
+    }
+
+    #[test]
+    fn finds_codes_that_are_words_of_their_own() {
+        for (pieces, found) in [
+            (&["DOF003"][..], &[Code::DOF003][..]),
+            (&["error[DO", "F00", "3]: x"], &[Code::DOF003]),
+            (&["{\"code\":\"DOF003\"},", "CHN001,"], &[Code::DOF003, Code::CHN001]),
+            (&["/tmp/invalid/DOF003", "/of-two/robot: fine"], &[]),
+            (&["C:\\invalid\\DOF003\\of-two"], &[]),
+            (&["DOF0031 XDOF003 DOF003_ dof003 DOF999"], &[]),
+            (&["", "\u{e9}DOF003\u{e9}"], &[Code::DOF003]),
+        ] {
+            let mut scan = Scan::default();
+            for piece in pieces {
+                scan.read(piece.as_bytes());
+            }
+            assert_eq!(scan.finish(), found.iter().copied().collect(), "{pieces:?}");
+        }
     }
 }

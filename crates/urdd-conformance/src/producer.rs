@@ -10,10 +10,8 @@ use rayon::prelude::*;
 use crate::data::{Data, ROBOTS};
 use crate::process::{End, Ran, Template};
 use crate::refused::{self, REFUSED, Refused, codes, examine};
-use crate::running::{Result, RunError, Workplace, with_threads};
-use crate::skips::{self, Skip};
+use crate::running::{Result, RunError, Skip, Workplace, check_skips, with_threads};
 use crate::suite::Suite;
-use crate::valid;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_format::conformance::{
     ClassScore, ModuleScore, ModuleStatus, ProducerResult, RefusedScore, RobotModule, RobotScore,
@@ -59,9 +57,7 @@ pub enum Event<'a> {
 /// Form of a line in a producer's skip list.
 pub const SKIP_FORM: &str = "`robot  # reason`, or `robot module  # reason`";
 
-/// What a producer runs on.
 struct Sources {
-    /// Names of the suite's robots.
     robots: Vec<String>,
     to_refuse: Vec<Refused>,
 }
@@ -102,8 +98,8 @@ pub fn run(
     observe: &(dyn Fn(&Event) + Sync),
 ) -> Result<ProducerResult> {
     let data = &suite.data;
-    let mut sources = Sources { robots: valid::robots(data), to_refuse: refused::all(suite)? };
-    skips::check(&plan.skips, |skip| sources.is_known(skip))?;
+    let mut sources = Sources { robots: data.robots(), to_refuse: refused::all(suite)? };
+    check_skips(&plan.skips, |skip| sources.is_known(skip))?;
     sources.choose(&plan.robots)?;
     let Sources { robots: names, to_refuse } = &sources;
     let folder = Workplace::new(plan.keep.as_deref())?;
@@ -158,12 +154,10 @@ pub fn run(
     })
 }
 
-/// Runs the command on a URDF.
 fn ran(plan: &Plan, urdf: &Path, out: &Path) -> Result<Ran, Cancelled> {
     plan.command.run(&[("urdf", urdf), ("out", out)], plan.limit, &plan.cancellation)
 }
 
-/// Runs the command on a URDF to refuse.
 fn refused(plan: &Plan, urdf: &Refused, folder: &Path) -> Result<RefusedScore> {
     let (path, out) = urdf.write(folder)?;
     let ran = ran(plan, &path, &out)?;
@@ -172,7 +166,6 @@ fn refused(plan: &Plan, urdf: &Refused, folder: &Path) -> Result<RefusedScore> {
     Ok(score)
 }
 
-/// Whether a class requires a module.
 fn is_asked_for(kind: ModuleKind, class: ConformanceClass) -> bool {
     kind.class().is_some_and(|first| first <= class)
 }
@@ -180,7 +173,7 @@ fn is_asked_for(kind: ModuleKind, class: ConformanceClass) -> bool {
 /// Runs the command on a robot, in its own folder.
 fn robot(plan: &Plan, data: &Data, name: &str, folder: &Path) -> Result<RobotScore> {
     let robots = folder.join(ROBOTS);
-    valid::write_robots(data, &robots)?;
+    data.write_robots(&robots)?;
     let out = folder.join(name);
     let ran = ran(plan, &robots.join(format!("{name}.urdf")), &out)?;
     let examined = match ran.end {
@@ -237,7 +230,6 @@ fn score(plan: &Plan, name: &str, ran: Ran, examined: Result<Urdd, Option<String
     }
 }
 
-/// An error on one line, with its location.
 fn told(finding: &Finding) -> String {
     let Finding { code, message, .. } = finding;
     let file = finding.file.as_deref().unwrap_or_default();

@@ -5,10 +5,9 @@ use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use crate::case::CaseKind;
 use crate::data::Damage;
 use crate::process::{End, Ran};
-use crate::suite::Suite;
+use crate::suite::{CaseKind, Suite};
 use crate::tree::{FilePath, Tree, TreeError};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::ROOT_METADATA;

@@ -1,52 +1,42 @@
-//! What runs of producers and validators share: the working folder, the threads, and why there is no result.
+//! What runs of producers and validators share: the working folder, the threads, lists of known failures, and why there is
+//! no result.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use crate::data::Damage;
-use crate::skips::SkipError;
 use crate::tree::{TreeError, make_folder};
 use urdd_directory::cancellation::Cancelled;
 use urdd_directory::temporary::Temporary;
 use urdd_generate::GenerateError;
 
-/// What runs return.
 pub(crate) type Result<T, E = RunError> = std::result::Result<T, E>;
 
 /// Why the suite cannot be written, or a producer or a validator cannot be run.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum RunError {
-    /// A case of the suite is damaged.
     #[error("the suite is damaged: {0}")]
     Damage(#[from] Damage),
-    /// The robot does not exist.
     #[error(
         "there is no robot `{0}`; the robots are {1}, and those to refuse, such as `URD005/link-held-by-two-joints` \
          (`urdd conformance export` writes them into `refused`)"
     )]
     UnknownRobot(String, String),
-    /// No case matches the version and the ids.
     #[error("no case to run; `urdd conformance export` writes all cases, and their list")]
     NoCase,
-    /// The skip list names something that does not exist.
     #[error("the skip list: {0}")]
     Skip(#[from] SkipError),
-    /// The folder to write into is not empty.
     #[error("{}: this folder is not empty; give a new one", .0.display())]
     NotEmpty(PathBuf),
-    /// A temporary folder cannot be created.
     #[error("a temporary folder cannot be created: {0}")]
     Temporary(std::io::Error),
-    /// The thread pool cannot be created.
     #[error("cannot run {0} commands at a time: {1}")]
     Jobs(usize, rayon::ThreadPoolBuildError),
-    /// A file or folder cannot be written, read or removed.
     #[error(transparent)]
     Tree(#[from] TreeError),
-    /// A valid URDD cannot be generated.
     #[error("{0}: {1}")]
     Generate(String, Box<GenerateError>),
-    /// The run was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
@@ -115,4 +105,93 @@ pub fn relative(path: &Path) -> Option<PathBuf> {
     let all = up.iter().chain(&down).all(is_name);
     let climb = up.iter().map(|_| Component::ParentDir);
     all.then(|| climb.chain(down.iter().copied()).collect())
+}
+
+/// A known failure of an external program. A list of them has a line for each: the skipped item, `#`, and the reason. Empty
+/// lines and lines that begin with `#` are ignored.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Skip {
+    /// Line in the file, from 1.
+    pub line: usize,
+    /// The words before the reason.
+    pub words: Vec<String>,
+    /// Reason.
+    pub reason: String,
+}
+
+impl Skip {
+    /// The line as written, without the reason.
+    pub fn what(&self) -> String {
+        self.words.join(" ")
+    }
+}
+
+/// Errors in a skip list.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum SkipError {
+    #[error("line {0}: say why, after a `#`: `{1}  # reason`")]
+    NoReason(usize, String),
+    #[error("line {0}: unexpected `{1}`; write {2}")]
+    TooMany(usize, String, &'static str),
+    #[error("line {0}: there is no `{1}`")]
+    Unknown(usize, String),
+}
+
+/// Reads a list whose lines have at most `most` words. `form` describes a line, for messages.
+///
+/// # Errors
+/// The first line with too many words or without a reason.
+pub fn read_skips(text: &str, most: usize, form: &'static str) -> Result<Vec<Skip>, SkipError> {
+    let mut skips = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        let (what, reason) = line.split_once('#').unwrap_or((line, ""));
+        let words: Vec<String> = what.split_whitespace().map(str::to_owned).collect();
+        let skip = Skip { line: index + 1, words, reason: reason.trim().to_owned() };
+        match skip.words.len() {
+            0 => continue,
+            words if words > most => {
+                return Err(SkipError::TooMany(skip.line, skip.what(), form));
+            }
+            _ if skip.reason.is_empty() => {
+                return Err(SkipError::NoReason(skip.line, skip.what()));
+            }
+            _ => skips.push(skip),
+        }
+    }
+    Ok(skips)
+}
+
+/// Checks that each skip is about something.
+///
+/// # Errors
+/// The first one that is not.
+pub(crate) fn check_skips(
+    skips: &[Skip],
+    is_known: impl Fn(&Skip) -> bool,
+) -> Result<(), SkipError> {
+    match skips.iter().find(|skip| !is_known(skip)) {
+        Some(skip) => Err(SkipError::Unknown(skip.line, skip.what())),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_skip_has_a_reason() {
+        let text = "# what we know\n\ngripper # no mimics yet\nhand  dof_module\t# same # here\n";
+        let skips = read_skips(text, 2, "").unwrap();
+        assert_eq!(skips.len(), 2);
+        assert_eq!(skips[0].reason, "no mimics yet");
+        assert_eq!((skips[1].line, skips[1].what().as_str()), (4, "hand dof_module"));
+        assert_eq!(skips[1].reason, "same # here");
+        assert_eq!(
+            read_skips("a # b\ngripper", 2, ""),
+            Err(SkipError::NoReason(2, "gripper".to_owned()))
+        );
+        assert!(matches!(read_skips("a b c # d", 2, ""), Err(SkipError::TooMany(1, ..))));
+    }
 }

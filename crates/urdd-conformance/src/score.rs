@@ -1,23 +1,59 @@
-//! Scores how a validator judged: by code, by family, and in sums.
+//! Scores how a validator judged: by code, by family, and in sums; and the codes of rules that it printed.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+use std::time::Duration;
 
+use semver::Version;
 use serde::Serialize;
 
-use crate::case::{CaseKind, Verdict};
-use crate::catalogue::Item;
 use crate::data::UNREADABLE;
-use crate::plan::Plan;
-use crate::printed_codes;
-use crate::process::{End, Ran};
-use crate::skips::Skip;
+use crate::export::Item;
+use crate::process::{End, Ran, Template};
+use crate::running::Skip;
+use crate::suite::{CaseKind, Verdict};
+use urdd_directory::cancellation::Cancellation;
 use urdd_format::conformance::{
-    CaseFault, CaseScore, GroupScore, UnreadableCase, UnreadableFault, UnreadableScore,
-    ValidatorResult, WrongCase,
+    CaseFault, CaseScore, GroupScore, PrintedCodes, UnreadableCase, UnreadableFault,
+    UnreadableScore, ValidatorProfile, ValidatorResult, WrongCase,
 };
 use urdd_format::index::Count;
 use urdd_format::registry::Profile;
 use urdd_format::report::Tool;
+use urdd_validate::code::Code;
+
+/// Settings of a validator run.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// The command, with `{dir}` unless it is a batch.
+    pub command: Template,
+    /// Whether a process of the command judges many URDDs.
+    pub is_batch: bool,
+    /// The version of the specification that the validator implements.
+    pub spec_version: Version,
+    /// Time limit per URDD.
+    pub limit: Duration,
+    /// Known failures: a case, or all cases of a code or a family.
+    pub skips: Vec<Skip>,
+    /// Id prefixes of the cases to run; empty for all.
+    pub only: Vec<String>,
+    /// Whether to include legacy URDDs.
+    pub legacy: bool,
+    /// Whether to include cases about what cannot be read.
+    pub unreadable: bool,
+    /// The profile of the validator: only cases that it can decide are run; `None` for a whole one.
+    pub profile: Option<ValidatorProfile>,
+    /// The exit status for rejection.
+    pub reject_status: i32,
+    /// The exit status for what cannot be read; `None` for 2, where rejecting it is good enough too.
+    pub unreadable_status: Option<i32>,
+    /// Number of URDDs to judge in parallel; `None` for the number of processors.
+    pub jobs: Option<usize>,
+    /// A new folder that keeps the URDDs; `None` for a temporary one.
+    pub keep: Option<PathBuf>,
+    /// Cancels the run, with all running commands and their child processes.
+    pub cancellation: Cancellation,
+}
 
 /// The exit status for what cannot be read, where none is asked for.
 const UNREADABLE_STATUS: i32 = 2;
@@ -36,7 +72,8 @@ pub enum Fault {
 pub(crate) fn fault(plan: &Plan, item: &Item, end: &End) -> Option<Fault> {
     match item.is_about_reading {
         true => reading_fault(plan, item.verdict, end)
-            .filter(|fault| !is_good_enough(plan, *fault))
+            // SPEC 2.14 asks no validator for a status of its own: whoever gives none may reject.
+            .filter(|fault| *fault != UnreadableFault::Rejected || plan.unreadable_status.is_some())
             .map(Fault::Reading),
         false => case_fault(plan, item.verdict, end).map(Fault::Case),
     }
@@ -66,11 +103,6 @@ fn reading_fault(plan: &Plan, expected: Verdict, end: &End) -> Option<Unreadable
         (_, Verdict::Unreadable) if status == plan.reject_status => Some(UnreadableFault::Rejected),
         _ => Some(UnreadableFault::Undecided),
     }
-}
-
-/// SPEC 2.14 asks no validator for a status of its own: whoever gives none may reject.
-fn is_good_enough(plan: &Plan, fault: UnreadableFault) -> bool {
-    fault == UnreadableFault::Rejected && plan.unreadable_status.is_none()
 }
 
 /// Whether a rejection looks like a crash. It still counts as a rejection, with a warning.
@@ -137,7 +169,7 @@ pub(crate) fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> Vali
     let (mut relevant, mut used) = (BTreeSet::new(), BTreeSet::new());
     let printed = items.iter().zip(&ran).filter(|(item, _)| !is_legacy(item));
     let printed = printed.filter_map(|(item, ran)| Some((item, &ran.as_ref()?.codes)));
-    let printed_codes = printed_codes::score(printed);
+    let printed_codes = score_codes(printed);
     for (item, ran) in items.iter().zip(ran) {
         let Some(ran) = ran else {
             not_run.push(item.id.clone());
@@ -209,5 +241,78 @@ pub(crate) fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> Vali
         stale_skips,
         profile: plan.profile,
         unreadable,
+    }
+}
+
+/// Scores the codes that a command printed for cases; `None` if it printed none at all. What cannot be read has no code:
+/// any that is printed for it is one too many.
+fn score_codes<'a>(
+    ran: impl Iterator<Item = (&'a Item, &'a BTreeSet<Code>)> + Clone,
+) -> Option<PrintedCodes> {
+    if ran.clone().all(|(_, codes)| codes.is_empty()) {
+        return None;
+    }
+    let (mut of, mut missing, mut extra) = (0, Vec::new(), Vec::new());
+    for (item, codes) in ran {
+        if item.verdict == Verdict::Unreadable {
+            if !codes.is_empty() {
+                extra.push(item.id.clone());
+            }
+            of += 1;
+            continue;
+        }
+        let Some(code) = item.code.as_deref() else { continue };
+        let is_printed = codes.iter().any(|printed| printed.as_str() == code);
+        match (item.kind, item.verdict) {
+            (CaseKind::Valid, _) | (CaseKind::Invalid, Verdict::Accept) => continue,
+            (CaseKind::Invalid, Verdict::Reject) if !is_printed => missing.push(item.id.clone()),
+            (CaseKind::NearMiss, _) if is_printed => extra.push(item.id.clone()),
+            _ => {}
+        }
+        of += 1;
+    }
+    Some(PrintedCodes {
+        of: Count::saturating(of),
+        right: Count::saturating(of - missing.len() - extra.len()),
+        missing,
+        extra,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn item(kind: CaseKind, verdict: Verdict, code: Option<&str>) -> Item {
+        Item {
+            id: format!("{kind:?} {verdict:?}"),
+            folder: String::new(),
+            kind,
+            code: code.map(str::to_owned),
+            title: String::new(),
+            profile: "1.0",
+            spec_versions: semver::VersionReq::STAR,
+            verdict,
+            findings: Vec::new(),
+            is_about_reading: code.is_none(),
+            profiles: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_read_has_no_code() {
+        let unreadable = item(CaseKind::Invalid, Verdict::Unreadable, None);
+        let near_miss = item(CaseKind::NearMiss, Verdict::Accept, None);
+        let rejected = item(CaseKind::Invalid, Verdict::Reject, Some("DOF003"));
+        let none = BTreeSet::new();
+        let one = BTreeSet::from([Code::DOF003]);
+        let score = |printed: &BTreeSet<Code>| {
+            let ran = [(&unreadable, printed), (&near_miss, printed), (&rejected, &one)];
+            let score = score_codes(ran.into_iter()).expect("a code was printed");
+            (score.of, score.right, score.missing, score.extra)
+        };
+        let [one_case, two_cases] = [1, 2].map(Count::saturating);
+        assert_eq!(score(&none), (two_cases, two_cases, vec![], vec![]));
+        assert_eq!(score(&one), (two_cases, one_case, vec![], vec![unreadable.id.clone()]));
     }
 }

@@ -13,24 +13,35 @@ use urdd_directory::outputs;
 /// A path with forward slashes, relative to the URDD's root; `../` leads to files beside the URDD. Stored as bytes,
 /// because most systems allow names that are not UTF-8.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-#[serde(try_from = "Written")]
+#[serde(from = "Written")]
 pub struct FilePath(Vec<u8>);
 
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Written {
     Text(String),
-    Bytes { base64: String },
+    Bytes { base64: Base64 },
 }
 
-impl TryFrom<Written> for FilePath {
+impl From<Written> for FilePath {
+    fn from(path: Written) -> FilePath {
+        FilePath(match path {
+            Written::Text(text) => text.into_bytes(),
+            Written::Bytes { base64: Base64(bytes) } => bytes,
+        })
+    }
+}
+
+/// Bytes, in base64 in a file of the suite.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "String")]
+pub struct Base64(pub Vec<u8>);
+
+impl TryFrom<String> for Base64 {
     type Error = base64::DecodeError;
 
-    fn try_from(path: Written) -> Result<FilePath, Self::Error> {
-        Ok(FilePath(match path {
-            Written::Text(text) => text.into_bytes(),
-            Written::Bytes { base64 } => STANDARD.decode(base64)?,
-        }))
+    fn try_from(text: String) -> Result<Base64, Self::Error> {
+        STANDARD.decode(text).map(Base64)
     }
 }
 
@@ -117,20 +128,16 @@ pub struct Tree {
 
 /// Why a tree could not be written or read.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum TreeError {
-    /// A file or folder could not be written.
     #[error("{path}: cannot be written: {1}", path = .0.display())]
     Write(PathBuf, io::Error),
-    /// A file or folder could not be read.
     #[error("{path}: cannot be read: {1}", path = .0.display())]
     Read(PathBuf, io::Error),
-    /// A folder could not be removed.
     #[error("{path}: cannot be removed: {1}", path = .0.display())]
     Remove(PathBuf, io::Error),
-    /// The operating system does not support such names, or symbolic links.
     #[error("{0}: this operating system cannot store it")]
     Unsupported(String),
-    /// An odd entry does not exist.
     #[error("`archive` names the entry {0:?}, and the archive has none of this name")]
     NoEntry(String),
 }
@@ -253,12 +260,10 @@ fn link(_: &Path, _: &Path) -> Option<io::Result<()>> {
     None
 }
 
-/// Creates a folder and those above it.
 pub(crate) fn make_folder(path: &Path) -> Result<(), TreeError> {
     fs::create_dir_all(path).map_err(|error| TreeError::Write(path.to_owned(), error))
 }
 
-/// Removes a folder and all that is in it.
 pub(crate) fn remove_folder(path: &Path) -> Result<(), TreeError> {
     fs::remove_dir_all(path).map_err(|error| TreeError::Remove(path.to_owned(), error))
 }

@@ -7,19 +7,14 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::batch::Batch;
-use crate::case::{Case, Verdict};
-use crate::catalogue::{Item, items};
-use crate::data::{ROBOTS, VALID};
-use crate::export::write_valid;
-pub use crate::plan::Plan;
+use crate::data::{ROBOTS, VALID, valid_id};
+use crate::export::{Item, items, write_valid};
 use crate::process::Ran;
-use crate::running::{Result, RunError, Workplace, relative, with_threads};
-pub use crate::score::Fault;
+use crate::running::{Result, RunError, Workplace, check_skips, relative, with_threads};
+pub use crate::score::{Fault, Plan};
 use crate::score::{covers, fault, is_legacy, looks_crashed, scored};
-use crate::skips;
-use crate::suite::Suite;
+use crate::suite::{Case, Suite, Verdict};
 use crate::tree::{TreeError, remove_folder};
-use crate::valid;
 use urdd_directory::cancellation::Cancelled;
 use urdd_format::conformance::ValidatorResult;
 use urdd_validate::code::Code;
@@ -43,7 +38,6 @@ pub struct Judged<'a> {
     pub codes: Vec<&'static str>,
 }
 
-/// A URDD to judge.
 struct Chosen<'a> {
     item: Item,
     /// `None` for valid URDDs.
@@ -76,7 +70,7 @@ pub fn run(
     observe: &(dyn Fn(&Event) + Sync),
 ) -> Result<ValidatorResult> {
     let (data, all) = (&suite.data, urdds(suite)?);
-    skips::check(&plan.skips, |skip| all.iter().any(|urdd| covers(skip, &urdd.item)))?;
+    check_skips(&plan.skips, |skip| all.iter().any(|urdd| covers(skip, &urdd.item)))?;
     let begins = |item: &Item| plan.only.iter().any(|start| item.id.starts_with(start));
     let chosen = all.into_iter().filter(|Chosen { item, .. }| {
         item.spec_versions.matches(&plan.spec_version)
@@ -93,12 +87,12 @@ pub fn run(
     observe(&Event::Start(chosen.len()));
     let is_chosen = |robot: &String| {
         let mut folders = chosen.iter().map(|urdd| &urdd.item.folder);
-        folders.any(|folder| *folder == valid::id(robot))
+        folders.any(|folder| *folder == valid_id(robot))
     };
-    let names: Vec<String> = valid::robots(data).into_iter().filter(is_chosen).collect();
+    let names: Vec<String> = data.robots().into_iter().filter(is_chosen).collect();
     if !names.is_empty() {
         let robots = folder.path().join(ROBOTS);
-        valid::write_robots(data, &robots)?;
+        data.write_robots(&robots)?;
         let valid = folder.path().join(VALID);
         write_valid(data, &names, &robots, &valid, &plan.cancellation).map_err(|error| {
             if plan.cancellation.is_cancelled() { RunError::Cancelled(Cancelled) } else { error }

@@ -9,14 +9,12 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::cause::at;
-use super::check::Check;
+use super::check::{Check, Examined};
 use super::code::Code;
-use super::examined::Examined;
-use super::file_error::{self, FileError};
-use super::places::retain;
+use super::part::SkipReason;
+use super::places::{at, retain};
 use super::run::Run;
-use super::skip::SkipReason;
+use super::settings_file::{self, FileError};
 use urdd_directory::position::Position;
 use urdd_format::report::{Kind, StaleIgnore, Urdd};
 
@@ -53,7 +51,7 @@ impl Baseline {
     /// If it cannot be read, or is not a baseline.
     pub fn read(file: &Path) -> Result<Self, FileError<BaselineError>> {
         let folder = file.parent().unwrap_or(Path::new("."));
-        file_error::read(file, MAX_BASELINE_BYTES, |text| {
+        settings_file::read(file, MAX_BASELINE_BYTES, |text| {
             Baseline::from_json(text, folder).map_err(|error| (None, error))
         })
     }

@@ -1,15 +1,20 @@
-//! What became of a rule: its outcome, and what it found.
+//! What became of a rule, and of all rules over one URDD or URDF: outcomes, findings, and what was not verified.
 
 use std::any::Any;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::code::Code;
-use super::description::Description;
+use super::description::{Description, Phase};
 use super::finding::{Finding, Findings};
-use super::part::{Faulted, NotVerified, Scope};
-use super::skip::SkipReason;
+use super::part::{Faulted, NotVerified, Part, Scope, SkipReason, Why};
 use urdd_directory::position::Position;
-use urdd_format::report::{Place, Severity};
+use urdd_format::index::Count;
+use urdd_format::registry::ModuleKind;
+use urdd_format::report::{
+    Kind, LinkNotVerified, ModelNotVerified, Place, Severity, Size, Urdd, Verdict,
+};
 
 /// The outcome of a rule.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -87,26 +92,22 @@ impl Check {
         findings: &mut Findings,
         check: impl FnOnce(&mut Findings) -> Option<()>,
     ) -> Check {
-        let ran = catch_unwind(AssertUnwindSafe(|| check(findings)));
-        let completed = match ran {
+        let crashed = |message| Check::new(rule, Outcome::Crashed(message), Vec::new());
+        let completed = match catch_unwind(AssertUnwindSafe(|| check(findings))) {
             Ok(completed) => completed.is_some(),
-            Err(panic) => {
-                let message = panic_message(&*panic);
-                return Check::new(rule, Outcome::Crashed(message), Vec::new());
-            }
+            Err(panic) => return crashed(panic_message(&*panic)),
         };
-        let undeclared = !completed && findings.skipped().is_none();
+        let undeclared = !completed && findings.skipped.is_none();
         if undeclared && cfg!(debug_assertions) {
-            let message =
-                format!("{} takes something that it does not declare in `needs`", rule.code);
-            return Check::new(rule, Outcome::Crashed(message), Vec::new());
+            let code = rule.code;
+            return crashed(format!("{code} takes something that it does not declare in `needs`"));
         }
+        let scope = &findings.scope;
         let undeclared = || undeclared.then_some(SkipReason::UndeclaredNeed);
-        let nothing_left = || findings.scope().nothing_left().map(SkipReason::Failed);
-        let skipped = findings.skipped().cloned();
-        let skipped = skipped.or_else(undeclared).or_else(nothing_left);
-        let not_verified = findings.scope().not_verified();
-        let (scope, faulted) = (findings.scope().afresh(), findings.faulted().clone());
+        let nothing_left = || scope.nothing_left().map(SkipReason::Failed);
+        let skipped = findings.skipped.clone().or_else(undeclared).or_else(nothing_left);
+        let (not_verified, scope) = (scope.not_verified(), scope.afresh());
+        let faulted = findings.faulted.clone();
         let mut found = findings.take();
         found.iter_mut().for_each(worst_first);
         let outcome = match (found.is_empty(), skipped) {
@@ -118,8 +119,7 @@ impl Check {
     }
 }
 
-/// The message of a panic.
-pub(super) fn panic_message(panic: &(dyn Any + Send)) -> String {
+fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "unknown".to_owned())
 }
@@ -150,4 +150,137 @@ pub(super) fn worst_first(finding: &mut Finding) {
         // Sorts the former first place in among the others.
         finding.more.sort_by(|a, b| size(b).total_cmp(&size(a)));
     }
+}
+
+type Whys = BTreeSet<(Code, String)>;
+
+/// One examined URDD or URDF.
+pub struct Examined {
+    /// Its report, still without the results of the checks.
+    pub report: Urdd,
+    /// The result of every rule, in order of code.
+    pub checks: Vec<Check>,
+}
+
+impl Examined {
+    /// One that could not be examined, for this reason.
+    pub fn without_checks(kind: Kind, name: &str, verdict: Verdict, reason: String) -> Self {
+        let report = Urdd { verdict, reason: Some(reason), ..blank(kind, name) };
+        Examined { report, checks: Vec::new() }
+    }
+
+    /// Examines a URDD or URDF. If it cannot be read, or if the program crashes outside a rule, its report says so; others
+    /// still have their reports.
+    pub fn caught<E: Display>(
+        kind: Kind,
+        name: &str,
+        examine: impl FnOnce() -> Result<Examined, E>,
+    ) -> Examined {
+        let without_checks =
+            |verdict, reason| Examined::without_checks(kind, name, verdict, reason);
+        match catch_unwind(AssertUnwindSafe(examine)) {
+            Ok(Ok(examined)) => examined,
+            Ok(Err(error)) => without_checks(Verdict::Unreadable, error.to_string()),
+            Err(panic) => {
+                let message = panic_message(&*panic);
+                let reason = format!(
+                    "the program crashed: {message}; this is a bug in the program, please report it"
+                );
+                without_checks(Verdict::Incomplete, reason)
+            }
+        }
+    }
+
+    /// Every part that some rule did not verify, with the rules and reasons.
+    pub fn not_verified(&self) -> BTreeMap<Part, Vec<(Code, Why)>> {
+        let mut parts: BTreeMap<Part, Vec<(Code, Why)>> = BTreeMap::new();
+        for check in &self.checks {
+            for one in &check.not_verified {
+                let why = (check.rule.code, one.why);
+                parts.entry(one.part).or_default().push(why);
+            }
+        }
+        parts
+    }
+
+    /// The links with a mesh or shape that was not verified. All links if a fault kept a rule about geometry from
+    /// running.
+    pub fn links_not_verified(&self) -> Vec<LinkNotVerified> {
+        let mut links: BTreeMap<usize, Whys> = BTreeMap::new();
+        for (part, whys) in self.not_verified() {
+            let whys = whys.into_iter().map(|(code, why)| (code, why.to_string()));
+            links.entry(part.link()).or_default().extend(whys);
+        }
+        for check in &self.checks {
+            let why = match &check.outcome {
+                Outcome::Skipped(reason) if reason.is_obstacle() => reason.to_string(),
+                Outcome::Crashed(_) => SkipReason::Crashed(check.rule.code).to_string(),
+                _ => continue,
+            };
+            if check.rule.phase == Phase::Geometry {
+                for link in 0..self.report.size.links.map_or(0, Count::get) {
+                    let whys = links.entry(link).or_default();
+                    whys.insert((check.rule.code, why.clone()));
+                }
+            }
+        }
+        let link = |(link, whys)| {
+            let (codes, reasons) = codes_and_reasons(whys);
+            LinkNotVerified { link: Count::saturating(link), codes, reasons }
+        };
+        links.into_iter().map(link).collect()
+    }
+
+    /// Why the rates of the self-collision model were not verified. `None` if a rule verified them or found them wrong,
+    /// and without a model.
+    pub fn model_not_verified(&self) -> Option<ModelNotVerified> {
+        let name = ModuleKind::SelfCollisionModel.name();
+        let counting = [Code::LRN010, Code::LRN011];
+        let checks = self.checks.iter().filter(|check| counting.contains(&check.rule.code));
+        let mut failed = checks.clone().map(|check| &check.outcome);
+        let mut modules = self.report.modules.iter();
+        if failed.any(|outcome| *outcome == Outcome::Failed)
+            || modules.all(|module| module.name != name)
+        {
+            return None;
+        }
+        let why = |check: &Check| match &check.outcome {
+            Outcome::Skipped(SkipReason::Ignored(_) | SkipReason::ForOthers(_)) => None,
+            Outcome::Skipped(reason) => Some((check.rule.code, reason.to_string())),
+            Outcome::Crashed(_) => {
+                Some((check.rule.code, SkipReason::Crashed(check.rule.code).to_string()))
+            }
+            Outcome::Passed | Outcome::Failed => None,
+        };
+        let (codes, reasons) = codes_and_reasons(checks.filter_map(why).collect());
+        (!codes.is_empty()).then_some(ModelNotVerified { codes, reasons })
+    }
+}
+
+/// The report on a URDD before anything is known about it. `path` is its path in the report.
+pub fn blank(kind: Kind, path: &str) -> Urdd {
+    Urdd {
+        kind,
+        path: path.to_owned(),
+        name: None,
+        xacro_arguments: Vec::new(),
+        verdict: Verdict::Pass,
+        reason: None,
+        size: Size::default(),
+        modules: Vec::new(),
+        checks: Vec::new(),
+        findings: Vec::new(),
+        not_checked: Vec::new(),
+        geometry_not_verified: Vec::new(),
+        model_not_verified: None,
+        programs: Vec::new(),
+        imported: None,
+    }
+}
+
+/// The codes and the reasons, each once and in order.
+fn codes_and_reasons(whys: Whys) -> (Vec<String>, Vec<String>) {
+    let (codes, reasons): (BTreeSet<Code>, BTreeSet<String>) = whys.into_iter().unzip();
+    let codes = codes.iter().map(ToString::to_string).collect();
+    (codes, reasons.into_iter().collect())
 }

@@ -2,8 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::part::{Faulted, Part, Scope, Why};
-use super::skip::SkipReason;
+use super::part::{Faulted, Part, Scope, SkipReason, Why};
 use urdd_directory::position::Position;
 use urdd_format::index::Count;
 use urdd_format::report::{Consequence, Fix, Magnitude, Severity};
@@ -175,11 +174,11 @@ pub struct Findings {
     reported: usize,
     kept: usize,
     kept_firsts: usize,
-    skipped: Option<SkipReason>,
+    pub(super) skipped: Option<SkipReason>,
     spots: Option<HashSet<Spot>>,
     only: Option<HashSet<Spot>>,
-    faulted: Faulted,
-    scope: Scope,
+    pub(super) faulted: Faulted,
+    pub(super) scope: Scope,
 }
 
 /// Identifies a finding of a rule: the file, and the pointer or, without one, the message.
@@ -206,16 +205,6 @@ impl Findings {
     /// Records that a part was not verified.
     pub fn not_verified(&mut self, part: Part, why: Why) {
         self.scope.leave_out(part, why);
-    }
-
-    /// The parts to judge, and those not verified.
-    pub fn scope(&self) -> &Scope {
-        &self.scope
-    }
-
-    /// The parts with findings.
-    pub fn faulted(&self) -> &Faulted {
-        &self.faulted
     }
 
     /// Findings that keep only those at the given spots.
@@ -284,11 +273,6 @@ impl Findings {
     /// The value; otherwise skips the rule for the reason given.
     pub fn or_skip<T>(&mut self, result: Result<T, SkipReason>) -> Option<T> {
         result.map_err(|reason| self.skip(reason)).ok()
-    }
-
-    /// The reason given to [`Findings::skip`].
-    pub fn skipped(&self) -> Option<&SkipReason> {
-        self.skipped.as_ref()
     }
 
     /// Whether nothing was reported.

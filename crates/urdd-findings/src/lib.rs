@@ -4,24 +4,28 @@
 //! found before, and reports as text, JSON, SARIF and JUnit. Knows no rule: the validator and lint have theirs.
 
 pub mod baseline;
-pub mod cause;
 pub mod check;
 pub mod code;
 pub mod description;
-pub mod examined;
-pub mod family;
-pub mod file_error;
 pub mod finding;
 pub mod part;
 pub mod places;
-pub mod programs;
 pub mod report;
-pub mod robots;
 pub mod run;
-pub mod selection;
 pub mod settings;
 pub mod settings_file;
-pub mod skip;
+
+// Rooms of these are parts of others.
+pub use check as examined;
+pub use part as skip;
+pub use places as cause;
+pub use report::programs;
+pub use settings_file as robots;
+
+/// The rules to report.
+pub mod selection {
+    pub use crate::settings::{Codes, Selection, UnknownCodes};
+}
 
 #[cfg(test)]
 mod tests;

@@ -1,24 +1,44 @@
-//! Settings: the contents of `urdd.toml`, and how they change what is reported.
+//! Settings of a run: the rules to report, and how what is found is reported.
 
 use std::collections::BTreeMap;
+use std::str::FromStr;
 
 use globset::{Glob, GlobSet};
-use serde::Deserialize;
 use thiserror::Error;
-use toml::Spanned;
 
-use super::cause::fold;
-use super::check::Outcome;
+use super::check::{Check, Examined, Outcome};
 use super::code::Code;
-use super::examined::Examined;
-use super::programs::NAMES;
-use super::robots::{DeclaredRobot, Entry, RobotError, declared};
-use super::selection::Selection;
-use super::skip::SkipReason;
+use super::part::SkipReason;
+use super::places::fold;
+use urdd_directory::account::Overdrawn;
 use urdd_directory::cancellation::Cancellation;
-use urdd_directory::position::{self, Position};
 use urdd_format::report::{Kind, Severity, StaleIgnore};
 use urdd_format::root_metadata::ConformanceClass;
+
+/// The names that settings have for programs that read URDFs. A distribution of ROS stands for its urdfdom, `gazebo` for
+/// each of its versions.
+pub const NAMES: &[&str] = &[
+    "ros",
+    "lyrical",
+    "rolling",
+    "jazzy",
+    "kilted",
+    "humble",
+    "noetic",
+    "iron",
+    "gazebo",
+    "fortress",
+    "harmonic",
+    "jetty",
+    "mujoco",
+    "mujoco3.3",
+    "pinocchio",
+    "drake",
+    "pybullet",
+    "isaac",
+    "newton",
+    "three",
+];
 
 /// Settings of a run.
 #[derive(Debug, Clone, Default)]
@@ -117,115 +137,26 @@ pub enum SettingsError {
     Robot(#[from] RobotError),
 }
 
-#[derive(Deserialize, Default)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
-struct File {
-    class: Option<Spanned<String>>,
-    fail_on: Option<Spanned<String>>,
-    severity: BTreeMap<Spanned<String>, Spanned<String>>,
-    ignore: Vec<FileIgnore>,
-    exclude: Vec<Spanned<String>>,
-    #[serde(rename = "for")]
-    programs: Vec<Spanned<String>>,
-    baseline: Option<String>,
-    robot: Vec<Entry>,
-}
+/// Maximum number of variants of a settings file: each is expanded by xacro.
+pub(crate) const MAX_VARIANTS: usize = 1000;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FileIgnore {
-    code: Option<Spanned<String>>,
-    path: Spanned<String>,
-    reason: Spanned<String>,
-}
-
-/// The content of a settings file.
-pub(crate) struct Parsed {
-    /// The settings.
-    pub(crate) settings: Settings,
-    /// The file that `baseline` names.
-    pub(crate) baseline: Option<String>,
-    /// The robots that it declares.
-    pub(crate) robots: Vec<DeclaredRobot>,
-}
-
-impl Parsed {
-    /// As [`Parsed::new`], with the place in the words where that is all that is known.
-    pub(crate) fn of_text(text: &str) -> Result<Self, SettingsError> {
-        Parsed::new(text).map_err(|(place, error)| match (place, error) {
-            (Some(place), SettingsError::Syntax(words)) => {
-                SettingsError::Syntax(format!("at {place}: {words}"))
-            }
-            (_, error) => error,
-        })
-    }
-
-    /// Parses the text of a settings file; what is wrong comes with its place.
-    pub(crate) fn new(text: &str) -> Result<Self, (Option<Position>, SettingsError)> {
-        let mut file: File = toml::from_str(text).map_err(|error| {
-            let place = error.span().map(|span| position::position(text, span.start));
-            (place, SettingsError::Syntax(error.message().to_owned()))
-        })?;
-        let baseline = file.baseline.clone();
-        let placed =
-            |(start, error): (usize, SettingsError)| (Some(position::position(text, start)), error);
-        let robots = declared(std::mem::take(&mut file.robot), text.len());
-        let robots = robots.map_err(|(start, error)| placed((start, error.into())))?;
-        let settings = file.settings().map_err(placed)?;
-        Ok(Parsed { settings, baseline, robots })
-    }
-}
-
-impl File {
-    /// The settings; what is wrong comes with its byte offset.
-    fn settings(self) -> Result<Settings, (usize, SettingsError)> {
-        let mut settings = Settings {
-            class: self.class.map(|class| parsed(&class, parse_class)).transpose()?,
-            fail_on: self.fail_on.map(|name| parsed(&name, parse_severity)).transpose()?,
-            ..Settings::default()
-        };
-        for (rule, severity) in &self.severity {
-            let rule = parsed(rule, parse_code)?;
-            settings.severities.insert(rule, parsed(severity, parse_severity)?);
-        }
-        for ignore in self.ignore {
-            if ignore.reason.get_ref().trim().is_empty() {
-                let error = SettingsError::EmptyReason(ignore.path.into_inner());
-                return Err((ignore.reason.span().start, error));
-            }
-            settings.ignores.push(Ignore {
-                code: ignore.code.map(|code| parsed(&code, parse_code)).transpose()?,
-                path: parsed(&ignore.path, matcher)?,
-                pattern: ignore.path.into_inner(),
-                reason: ignore.reason.into_inner(),
-            });
-        }
-        for pattern in &self.exclude {
-            settings.excludes.push(parsed(pattern, Exclude::new)?);
-        }
-        for name in &self.programs {
-            settings.programs.push(parsed(name, parse_program)?);
-        }
-        Ok(settings)
-    }
-}
-
-fn parsed<T>(
-    text: &Spanned<String>,
-    parse: impl Fn(&str) -> Result<T, SettingsError>,
-) -> Result<T, (usize, SettingsError)> {
-    parse(text.get_ref()).map_err(|error| (text.span().start, error))
+/// What is wrong with an entry of `[[robot]]`.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum RobotError {
+    #[error("`{0}` is no name of an argument; expected letters, digits and `_`")]
+    Name(String),
+    #[error("the list of `{0}` is empty; write a value, or leave the argument out")]
+    NoValues(String),
+    #[error(
+        "with the lists of `{path}`, the file declares {count} robots, and may declare {MAX_VARIANTS}; shorten the lists"
+    )]
+    Many { path: String, count: usize },
+    #[error(transparent)]
+    Overdrawn(#[from] Overdrawn),
 }
 
 impl Settings {
-    /// Parses the text of a `urdd.toml`. Its `baseline` is left to [`SettingsFile`](super::settings_file::SettingsFile).
-    ///
-    /// # Errors
-    /// If it is not TOML, or has unknown keys, unknown codes or invalid patterns.
-    pub fn from_toml(text: &str) -> Result<Settings, SettingsError> {
-        Ok(Parsed::of_text(text)?.settings)
-    }
-
     /// Applies severities, ignores and the selection, then leaves out what follows from what is left. Returns the ignores that
     /// match nothing.
     pub fn apply(&self, examined: &mut [Examined]) -> Vec<StaleIgnore> {
@@ -234,8 +165,7 @@ impl Settings {
             for check in &mut *checks {
                 if let Some(severity) = self.severities.get(&check.rule.code) {
                     check.severity = *severity;
-                    let own = check.findings.iter_mut().map(|finding| &mut finding.severity);
-                    own.for_each(|own| *own = None);
+                    check.findings.iter_mut().for_each(|finding| finding.severity = None);
                 }
                 let mut reason = None;
                 check.findings.retain(|finding| {
@@ -273,7 +203,7 @@ impl Settings {
 /// Maximum length of a pattern, bytes: a hundred thousand nested alternatives exhaust the stack.
 const LONGEST_PATTERN: usize = 1000;
 
-fn matcher(pattern: &str) -> Result<GlobSet, SettingsError> {
+pub(crate) fn matcher(pattern: &str) -> Result<GlobSet, SettingsError> {
     let refused = |reason: String| SettingsError::Pattern {
         pattern: pattern.chars().take(LONGEST_PATTERN).collect(),
         reason,
@@ -290,7 +220,7 @@ fn matcher(pattern: &str) -> Result<GlobSet, SettingsError> {
         .map_err(|error| refused(error.kind().to_string()))
 }
 
-fn parse_code(text: &str) -> Result<Code, SettingsError> {
+pub(crate) fn parse_code(text: &str) -> Result<Code, SettingsError> {
     Code::parse(text).ok_or_else(|| SettingsError::UnknownCode(text.to_owned()))
 }
 
@@ -325,4 +255,62 @@ pub fn parse_class(text: &str) -> Result<ConformanceClass, SettingsError> {
         .copied()
         .find(|class| class.as_str().eq_ignore_ascii_case(text))
         .ok_or_else(|| SettingsError::UnknownClass(text.to_owned()))
+}
+
+/// A rule or a family of rules.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Codes {
+    /// One rule.
+    One(Code),
+    /// All rules of a family.
+    Family(&'static str),
+}
+
+/// Neither the code of a rule nor a family.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("there is no rule and no family of rules `{0}`; `urdd explain` lists them")]
+pub struct UnknownCodes(String);
+
+impl FromStr for Codes {
+    type Err = UnknownCodes;
+
+    fn from_str(text: &str) -> Result<Self, UnknownCodes> {
+        let family = || {
+            let mut families = Code::ALL.iter().map(|code| code.family());
+            families.find(|family| family.eq_ignore_ascii_case(text))
+        };
+        let one = Code::parse(text).map(Codes::One);
+        one.or_else(|| family().map(Codes::Family)).ok_or_else(|| UnknownCodes(text.to_owned()))
+    }
+}
+
+impl Codes {
+    /// Whether it includes a rule.
+    pub fn holds(self, code: Code) -> bool {
+        match self {
+            Codes::One(one) => one == code,
+            Codes::Family(family) => code.family() == family,
+        }
+    }
+}
+
+/// The rules to report.
+#[derive(Debug, Clone, Default)]
+pub struct Selection {
+    /// Only these; all if empty.
+    pub select: Vec<Codes>,
+    /// Except these.
+    pub ignore: Vec<Codes>,
+}
+
+impl Selection {
+    /// Removes what is not reported. A crashed rule is always reported.
+    fn apply(&self, checks: &mut Vec<Check>) {
+        let holds = |list: &[Codes], code| list.iter().any(|codes| codes.holds(code));
+        checks.retain(|check| {
+            let code = check.rule.code;
+            let selected = self.select.is_empty() || holds(&self.select, code);
+            matches!(check.outcome, Outcome::Crashed(_)) || (selected && !holds(&self.ignore, code))
+        });
+    }
 }

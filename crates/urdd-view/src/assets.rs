@@ -4,7 +4,6 @@ use std::io::{self, Read};
 
 use brotli_decompressor::Decompressor;
 
-/// A file of the page.
 #[derive(Debug, Clone, Copy)]
 pub struct Asset {
     pub name: &'static str,
@@ -23,7 +22,6 @@ macro_rules! asset {
     };
 }
 
-/// All files of the page.
 pub const ASSETS: &[Asset] = &[
     asset!("index.html", "text/html; charset=utf-8"),
     asset!("app.js", "text/javascript; charset=utf-8"),
@@ -43,7 +41,6 @@ pub fn find(name: &str) -> Option<&'static Asset> {
 }
 
 impl Asset {
-    /// Its decompressed content.
     pub fn bytes(&self) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
         Decompressor::new(self.brotli, 1 << 16).read_to_end(&mut bytes)?;

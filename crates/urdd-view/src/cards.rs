@@ -10,15 +10,15 @@ use std::time::{Duration, Instant};
 
 use rayon::ThreadPool;
 
-use crate::card::Picture;
-use crate::collection::{Collection, Making, Shown, Source};
-use crate::reply::{Body, Reply};
+use crate::collection::Collection;
+use crate::http::{Body, Reply};
+use crate::shown::{Making, Picture, Shown, Source};
 use crate::{picture, revision};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;
 use urdd_directory::source::Memory;
 use urdd_generate::batch::caught;
-use urdd_generate::{GenerateError, Selection, Settings, generate_in_memory};
+use urdd_generate::{GenerateError, Settings, generate_in_memory};
 use urdd_robot::Robot;
 
 /// Maximum time for a robot; then its card has no picture.
@@ -26,7 +26,6 @@ const LONGEST: Duration = Duration::from_secs(20);
 /// Maximum number of pictures that are kept, of at most 0.3 MB, and usually 0.02.
 const MAX_KEPT: usize = 500;
 
-/// The cards of a collection.
 pub struct Cards<'scope, 'a> {
     settings: &'a Settings,
     pool: Option<Arc<ThreadPool>>,
@@ -58,7 +57,6 @@ pub fn answer(robot: &Shown, stop: &dyn Fn() -> bool) -> Reply {
 }
 
 impl<'scope, 'a: 'scope> Cards<'scope, 'a> {
-    /// For robots that are read by these settings.
     pub fn new(settings: &'a Settings) -> Self {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().ok().map(Arc::new);
         Cards { settings, pool, running: None, kept: VecDeque::new() }
@@ -99,7 +97,7 @@ impl<'scope, 'a: 'scope> Cards<'scope, 'a> {
         let revision = revision::of_file(&source.file);
         let cancellation = Cancellation::default();
         let settings = Settings {
-            selection: Selection::parse(picture::MODULES.iter().copied()).ok()?,
+            selection: picture::modules(),
             cancellation: cancellation.clone(),
             ..source.settings(self.settings)
         };

@@ -1,245 +1,34 @@
-//! The displayed robots.
+//! The displayed robots: those that were given, and those that are dropped on the page.
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use parking_lot::Mutex;
+use serde::Deserialize;
+use serde_json::json;
 
-use crate::card::Card;
-use crate::drop_folder::Drops;
+use crate::http::{Reply, Result, failed, refused};
 use crate::revision;
-use crate::states::States;
-use urdd_directory::carried::carried;
+use crate::shown::{Access, Opened, Shown, Source};
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA, discover};
-use urdd_directory::replacement::Files;
+use urdd_directory::file_type::FileType;
+use urdd_directory::limits::{MAX_FOLDER_DEPTH, MAX_NAME_BYTES, MAX_PART_BYTES};
+use urdd_directory::listing::EntryKind;
 use urdd_directory::root::{ReadError, Root};
+use urdd_directory::source::Archive;
+use urdd_directory::{outputs, path};
 use urdd_generate::Settings;
-use urdd_robot::Robot;
-use urdd_source::Settings as SourceSettings;
-
-/// A displayed robot.
-#[derive(Debug)]
-pub struct Shown {
-    /// Its unique identifier in URLs: ASCII letters, digits, `-`, `_` and `.`.
-    pub id: String,
-    /// Its displayed name: its path from the given folder.
-    pub name: String,
-    /// The URDF that it is generated from; `None` for a URDD.
-    pub source: Option<Source>,
-    /// The configurations that a program shows.
-    pub states: Arc<States>,
-    standing: Mutex<Standing>,
-    /// The files, and their revision.
-    opened: Mutex<Option<(String, Opened)>>,
-    /// When a page last asked for it.
-    seen: Mutex<Option<Instant>>,
-    /// The report, and its revision.
-    pub(super) report: Mutex<Option<(String, String)>>,
-    /// The picture, and its revision.
-    pub(super) picture: Mutex<Option<(String, Option<Vec<u8>>)>>,
-    /// The picture of its card before it is generated.
-    pub(super) card: Card,
-    /// The saves that can be undone: the revision after each, and the files before it.
-    pub(super) undo: Mutex<Vec<(String, Files)>>,
-}
-
-/// What a robot is generated from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Source {
-    /// The URDF or xacro file.
-    pub file: PathBuf,
-    /// Folders of packages besides those of the settings, each as `NAME=PATH`.
-    pub packages: Vec<String>,
-    /// Arguments for xacro that are declared of it, each as `name:=value`.
-    pub arguments: Vec<String>,
-}
-
-impl Source {
-    /// The settings to read it with: with its own packages and arguments.
-    pub fn settings(&self, all: &Settings) -> Settings {
-        let source = self.with_packages(&all.source).with_declared(&self.arguments);
-        Settings { source, ..all.clone() }
-    }
-
-    /// These settings with its own packages.
-    pub(super) fn with_packages(&self, all: &SourceSettings) -> SourceSettings {
-        let mut settings = all.clone();
-        for package in &self.packages {
-            // A folder that is gone: its meshes are not found, and the page says so.
-            let _ = settings.packages.add(package);
-        }
-        settings
-    }
-}
-
-#[derive(Debug)]
-struct Standing {
-    path: PathBuf,
-    /// Whether there is something to show at that path.
-    is_ready: bool,
-    notes: Vec<String>,
-    kind: Access,
-    making: Making,
-}
-
-/// The operations allowed on a robot's files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Access {
-    /// An archive or a URDD from before version 1: read-only.
-    ReadOnly,
-    /// A version 1 folder: skips can be saved.
-    Writable,
-    /// Generated for display: the whole URDD can be saved into a folder.
-    Temporary,
-}
-
-/// Progress of a robot's generation.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Making {
-    /// Generation is complete, or was not needed.
-    Done,
-    /// Nobody has opened it yet.
-    Waiting,
-    /// A module is being generated.
-    Running {
-        /// The module.
-        what: String,
-        /// Number of finished modules.
-        done: usize,
-        /// Total number of modules.
-        of: usize,
-    },
-    /// Generation failed, with the reason.
-    Failed(String),
-}
-
-/// The files of a displayed robot. All requests share one archive in memory.
-#[derive(Debug, Clone)]
-pub struct Opened {
-    /// All files: for the validator.
-    pub all: Root,
-    /// The URDD's own files (see [`carried`]): for everything else.
-    pub own: Root,
-    /// The robot.
-    pub robot: Arc<Robot>,
-}
-
-impl Opened {
-    /// The files of a robot, as they are now.
-    fn of(root: &Root) -> Result<Self, ReadError> {
-        let all = root.kept();
-        let own = carried(&all)?;
-        Ok(Opened { robot: Arc::new(Robot::of(own.clone())), own, all })
-    }
-}
-
-impl Shown {
-    /// The current files, and their revision.
-    ///
-    /// # Errors
-    /// If they no longer exist or cannot be read.
-    pub fn open(&self) -> Result<(String, Opened), ReadError> {
-        let path = self.path();
-        // Taken before the files are listed, so that later changes are detected.
-        let revision = revision::of(&path);
-        let mut opened = self.opened.lock();
-        if let Some((of, known)) = opened.as_ref()
-            && *of == revision
-        {
-            return Ok((revision, known.clone()));
-        }
-        // Drops the old archive first: only one is in memory.
-        *opened = None;
-        let found = Opened::of(&Root::open(&path)?)?;
-        *opened = Some((revision.clone(), found.clone()));
-        Ok((revision, found))
-    }
-
-    /// The URDD's own files as last listed: all requests for files of an archive read the same archive.
-    ///
-    /// # Errors
-    /// As [`Shown::open`].
-    pub fn own_files(&self) -> Result<Root, ReadError> {
-        let known = self.opened.lock().as_ref().map(|(_, opened)| opened.own.clone());
-        known.map_or_else(|| Ok(self.open()?.1.own), Ok)
-    }
-
-    /// The path of its folder or archive.
-    pub fn path(&self) -> PathBuf {
-        self.standing.lock().path.clone()
-    }
-
-    /// The assumptions made when it was generated for display.
-    pub fn notes(&self) -> Vec<String> {
-        self.standing.lock().notes.clone()
-    }
-
-    /// Whether its skips can be saved.
-    pub fn is_writable(&self) -> bool {
-        self.standing.lock().kind == Access::Writable
-    }
-
-    /// Whether it is deleted when the program ends, unless it is saved.
-    pub fn is_temporary(&self) -> bool {
-        self.standing.lock().kind == Access::Temporary
-    }
-
-    /// Progress of its generation.
-    pub fn making(&self) -> Making {
-        self.standing.lock().making.clone()
-    }
-
-    /// Sets the progress of its generation.
-    pub fn set_making(&self, making: Making) {
-        self.standing.lock().making = making;
-    }
-
-    /// Whether there is something to show.
-    pub fn is_ready(&self) -> bool {
-        self.standing.lock().is_ready
-    }
-
-    /// Records that a page shows it, or waits for it.
-    pub fn see(&self) {
-        *self.seen.lock() = Some(Instant::now());
-    }
-
-    /// How long ago a page last asked for it.
-    pub fn unseen_for(&self) -> Option<Duration> {
-        self.seen.lock().map(|seen| seen.elapsed())
-    }
-
-    /// Shows what was generated at a path, with these assumptions, while `making` goes on. Not if it was saved
-    /// meanwhile.
-    pub fn show(&self, path: PathBuf, notes: Vec<String>, making: Making) {
-        let mut standing = self.standing.lock();
-        if standing.kind == Access::Temporary {
-            standing.path = path;
-            standing.notes = notes;
-            standing.making = making;
-            standing.is_ready = true;
-        }
-    }
-
-    /// Records that it is now in a folder of the user.
-    pub(super) fn keep_at(&self, path: PathBuf) {
-        *self.opened.lock() = None;
-        let mut standing = self.standing.lock();
-        standing.path = path;
-        standing.kind = Access::Writable;
-        standing.making = Making::Done;
-    }
-}
+use urdd_source::dropped::PackageFolders;
+use urdd_source::{Settings as SourceSettings, robots};
 
 /// The robots of a page, in order. Robots may be added while it is shown.
 #[derive(Debug, Default)]
 pub struct Collection {
     listed: Mutex<Listed>,
-    /// Where dropped files go, if they are accepted.
-    pub(super) drops: Option<Drops>,
-    /// How URDFs are read.
+    drops: Option<Drops>,
     pub(super) settings: Settings,
 }
 
@@ -253,7 +42,8 @@ impl Collection {
     /// Accepts URDFs that are dropped on the page, into this folder. `with_xacro` allows them to run xacro.
     #[must_use]
     pub fn with_drops(self, folder: PathBuf, with_xacro: bool) -> Self {
-        Collection { drops: Some(Drops::new(folder, with_xacro)), ..self }
+        let drops = Drops { folder, with_xacro, taken: Mutex::default() };
+        Collection { drops: Some(drops), ..self }
     }
 
     /// Reads URDFs by these settings.
@@ -311,28 +101,13 @@ impl Collection {
             id = format!("{word}.{number}");
             number += 1;
         }
-        let is_made = source.is_none();
-        let shown = Arc::new(Shown {
-            id,
-            name,
-            source,
-            states: Arc::default(),
-            standing: Mutex::new(Standing {
-                path,
-                is_ready: is_made,
-                notes: Vec::new(),
-                kind,
-                making: if is_made { Making::Done } else { Making::Waiting },
-            }),
-            opened: Mutex::default(),
-            seen: Mutex::default(),
-            report: Mutex::default(),
-            picture: Mutex::default(),
-            card: Card::default(),
-            undo: Mutex::default(),
-        });
+        let shown = Arc::new(Shown::new(id, name, source, path, kind));
         listed.robots.push(Arc::clone(&shown));
         shown
+    }
+
+    pub(super) fn has_dropped(&self, file: &Path) -> bool {
+        self.drops.as_ref().is_some_and(|drops| file.starts_with(&drops.folder))
     }
 
     /// The robots.
@@ -349,6 +124,206 @@ impl Collection {
     pub fn find(&self, id: &str) -> Option<Arc<Shown>> {
         self.listed.lock().robots.iter().find(|robot| robot.id == id).cloned()
     }
+}
+
+/// Maximum size of all drops, bytes.
+const MAX_TOTAL: u64 = 1 << 30;
+
+/// Where dropped files go: a temporary folder.
+#[derive(Debug)]
+struct Drops {
+    folder: PathBuf,
+    /// Whether xacro files may run.
+    with_xacro: bool,
+    taken: Mutex<Taken>,
+}
+
+#[derive(Debug, Default)]
+struct Taken {
+    drops: usize,
+    bytes: u64,
+}
+
+impl Drops {
+    /// A new folder for so many bytes.
+    fn begin(&self, bytes: u64) -> Result<PathBuf> {
+        let mut taken = self.taken.lock();
+        if taken.bytes.saturating_add(bytes) > MAX_TOTAL {
+            return refused(
+                413,
+                "more than 1 GiB was dropped; give the path to `urdd view` instead",
+            );
+        }
+        taken.bytes += bytes;
+        taken.drops += 1;
+        let folder = self.folder.join(taken.drops.to_string());
+        fs::create_dir_all(&folder).map_err(failed(500))?;
+        Ok(folder)
+    }
+}
+
+/// Maximum size of one drop, bytes.
+pub const MAX_DROP: u64 = 256 << 20;
+/// Maximum number of files of one drop.
+const MAX_ITEMS: usize = 10_000;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Item {
+    path: String,
+    size: u64,
+}
+
+/// Takes URDFs and their meshes that were dropped on the page into the temporary folder, and adds their robots to the
+/// collection, unless the page does not wait any more.
+///
+/// The body is a line of JSON, a list of `path` and `size`, and then the files' bytes one after another. A .zip that comes
+/// alone stands for the files in it. Everything is hostile: no path leaves the folder, no file replaces another, and
+/// number, sizes and depth have limits.
+pub fn take(collection: &Collection, body: &[u8], is_gone: &dyn Fn() -> bool) -> Reply {
+    Reply::of(taken(collection, body, is_gone).map(|ids| json!({ "robots": ids })))
+}
+
+fn taken(collection: &Collection, body: &[u8], is_gone: &dyn Fn() -> bool) -> Result<Vec<String>> {
+    let Some(drops) = &collection.drops else {
+        return refused(403, "no URDFs are taken here");
+    };
+    let (mut items, mut content) = items(body)?;
+    let unpacked;
+    let wanted = || match is_gone() {
+        true => refused(409, "the page does not wait any more"),
+        false => Ok(()),
+    };
+    if let [item] = &*items
+        && FileType::Archive.is_of(Path::new(&item.path))
+    {
+        (items, unpacked) = of_zip(content, &wanted)?;
+        content = &unpacked;
+    }
+    check(&items)?;
+    let folder = drops.begin(content.len() as u64)?;
+    let sources = write(&items, content, &folder, &wanted)
+        .and_then(|()| sources(&items, &folder, drops.with_xacro, &wanted));
+    let sources = sources.inspect_err(|_| {
+        let _ = fs::remove_dir_all(&folder);
+    })?;
+    let add = |(name, source)| collection.add_source(name, source).id.clone();
+    Ok(sources.into_iter().map(add).collect())
+}
+
+/// The files of a drop, and their bytes.
+fn items(body: &[u8]) -> Result<(Vec<Item>, &[u8])> {
+    let Some(end) = body.iter().position(|byte| *byte == b'\n') else {
+        return refused(400, "there is no list of files");
+    };
+    let (list, content) = (&body[..end], &body[end + 1..]);
+    let items: Vec<Item> = serde_json::from_slice(list)
+        .map_err(|error| (400, format!("no list of files: {error}")))?;
+    let size = items.iter().try_fold(0u64, |sum, item| sum.checked_add(item.size));
+    if size != Some(content.len() as u64) {
+        return refused(400, "the sizes do not match");
+    }
+    Ok((items, content))
+}
+
+/// The files in a .zip, and their bytes.
+fn of_zip(bytes: &[u8], wanted: &dyn Fn() -> Result<()>) -> Result<(Vec<Item>, Vec<u8>)> {
+    let bad = |error: &dyn std::fmt::Display| (400, format!("this .zip cannot be read: {error}"));
+    let archive = Archive::of_any("", bytes.to_vec()).map_err(|error| bad(&error))?;
+    let root = Root::of(archive);
+    let entries = root.list().map_err(|error| bad(&error))?.entries.into_iter();
+    let files: Vec<_> = entries.filter(|entry| entry.kind == EntryKind::File).collect();
+    if files.iter().map(|file| file.size).sum::<u64>() > MAX_DROP {
+        return refused(413, format!("this .zip has more than {} MiB in it", MAX_DROP >> 20));
+    }
+    let (mut items, mut content) = (Vec::new(), Vec::new());
+    for file in files {
+        wanted()?;
+        content.extend(root.read(&file.path, file.size).map_err(|error| bad(&error))?);
+        items.push(Item { path: file.path, size: file.size });
+    }
+    Ok((items, content))
+}
+
+/// Whether number and paths are such that they can be written.
+fn check(items: &[Item]) -> Result<()> {
+    if items.len() > MAX_ITEMS {
+        return refused(400, format!("more than {MAX_ITEMS} files"));
+    }
+    for item in items {
+        let name = &item.path;
+        let is_long = name.len() > MAX_NAME_BYTES
+            || name.split('/').any(|part| part.len() > MAX_PART_BYTES)
+            || name.split('/').count() > MAX_FOLDER_DEPTH;
+        if is_long {
+            return refused(400, "a path is too long");
+        }
+        path::check(name).map_err(|fault| (400, format!("{name:?}: {fault}")))?;
+    }
+    Ok(())
+}
+
+fn write(
+    items: &[Item],
+    mut content: &[u8],
+    folder: &Path,
+    wanted: &dyn Fn() -> Result<()>,
+) -> Result<()> {
+    let failed = |path: &str, error: &std::io::Error| {
+        let why = match error.kind() {
+            // Nothing is replaced: two files of one name are an error.
+            ErrorKind::AlreadyExists | ErrorKind::NotADirectory | ErrorKind::IsADirectory => {
+                "another file or folder of this drop has the same name".to_owned()
+            }
+            _ => error.to_string(),
+        };
+        (400, format!("{path:?}: {why}"))
+    };
+    for Item { path, size } in items {
+        wanted()?;
+        let size = usize::try_from(*size).unwrap_or(usize::MAX);
+        let (bytes, rest) =
+            content.split_at_checked(size).ok_or((400, "the sizes do not match".to_owned()))?;
+        content = rest;
+        let target = folder.join(path);
+        outputs::fresh(&target, bytes).map_err(|error| failed(path, &error))?;
+    }
+    // Without it, a package around the temporary folder would count as the robot's own, with the files in it.
+    let package = folder.join("package.xml");
+    if !package.exists() {
+        let text = b"<package><name>dropped</name></package>\n";
+        outputs::fresh(&package, text).map_err(|error| failed("package.xml", &error))?;
+    }
+    Ok(())
+}
+
+/// The URDFs of a drop, by name.
+fn sources(
+    items: &[Item],
+    folder: &Path,
+    with_xacro: bool,
+    wanted: &dyn Fn() -> Result<()>,
+) -> Result<Vec<(String, Source)>> {
+    let mut jobs = robots::jobs(&[folder.to_owned()], &SourceSettings::default())
+        .map_err(|_| (400, "there is no .urdf or .urdf.xacro file".to_owned()))?;
+    if !with_xacro {
+        jobs.retain(|job| !FileType::Xacro.is_of(&job.source));
+    }
+    if jobs.is_empty() {
+        return refused(403, "xacro files are programs: start `urdd view --xacro` to run them");
+    }
+    let dropped = PackageFolders::of(items.iter().map(|item| &*item.path).collect());
+    let sources = jobs.into_iter().map(|job| {
+        wanted()?;
+        let text = fs::read(&job.source).unwrap_or_default();
+        let text = String::from_utf8_lossy(&text);
+        let packages = dropped.of_text(&text, false).into_iter();
+        let packages = packages.map(|(name, at)| format!("{name}={}", folder.join(at).display()));
+        let source =
+            Source { file: job.source, packages: packages.collect(), arguments: Vec::new() };
+        Ok((job.name, source))
+    });
+    sources.collect()
 }
 
 #[cfg(test)]

@@ -15,13 +15,14 @@ use parking_lot::Mutex;
 use rayon::ThreadPool;
 
 use crate::cards::Cards;
-use crate::collection::{Collection, Making, Shown, Source};
+use crate::collection::Collection;
+use crate::shown::{Making, Shown, Source};
 use crate::{picture, revision};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;
 use urdd_format::registry::ModuleKind;
 use urdd_generate::batch::{Observer, caught};
-use urdd_generate::{GenerateError, Generated, Progress, Selection, Settings};
+use urdd_generate::{GenerateError, Generated, Progress, Settings};
 use urdd_source::included;
 use urdd_source::robots::Job;
 
@@ -46,7 +47,6 @@ pub struct Live<'a> {
     pub pause: Duration,
 }
 
-/// A robot that was opened.
 #[derive(Clone)]
 struct Followed {
     shown: Arc<Shown>,
@@ -96,14 +96,11 @@ impl Live<'_> {
                     cards.stop();
                     self.picture(robot, pool.as_ref());
                 }
-                running = match running {
-                    Some(run) if run.thread.is_finished() => {
-                        finish(run, &mut known);
-                        None
-                    }
-                    Some(run) => Some(run),
-                    None => self.begin(scope, &known),
-                };
+                if let Some(run) = running.take_if(|run| run.thread.is_finished()) {
+                    finish(run, &mut known);
+                } else if running.is_none() {
+                    running = self.begin(scope, &known);
+                }
                 cards.go_on(scope, collection, running.is_some() || known.values().any(is_due));
                 thread::sleep(PAUSE);
             }
@@ -147,24 +144,20 @@ impl Live<'_> {
         let files = Mutex::new(before.collect());
         let target = robot.picture_path();
         let progress = Reading { shown: &robot.shown, files: &files };
-        let made = Selection::parse(picture::MODULES.iter().copied()).ok();
-        let made = made.map(|selection| {
-            let settings = Settings {
-                selection,
-                donors: donors([&target]),
-                ..robot.source.settings(self.settings)
-            };
-            let make = || {
-                caught(&robot.job.source, || {
-                    urdd_generate::generate(&robot.job.source, &target, &settings, &progress)
-                })
-            };
-            match pool {
-                Some(pool) => pool.install(make),
-                None => make(),
-            }
-        });
-        let settings = robot.source.settings(self.settings);
+        let settings = Settings {
+            selection: picture::modules(),
+            donors: donors([&target]),
+            ..robot.source.settings(self.settings)
+        };
+        let make = || {
+            caught(&robot.job.source, || {
+                urdd_generate::generate(&robot.job.source, &target, &settings, &progress)
+            })
+        };
+        let made = match pool {
+            Some(pool) => pool.install(make),
+            None => make(),
+        };
         let mut files = files.into_inner();
         for file in included(&robot.job.source, &settings.source, &settings.cancellation) {
             let word = revision::of_file(&file);
@@ -172,13 +165,13 @@ impl Live<'_> {
         }
         robot.files = files;
         match made {
-            Some(Ok(generated)) => {
+            Ok(generated) => {
                 let rest = Making::Running { what: "the rest".to_owned(), done: 0, of: 0 };
                 robot.shown.show(target, notes(&generated), rest);
                 robot.is_partial_since = Some(Instant::now());
             }
-            Some(Err(GenerateError::Cancelled)) | None => {}
-            Some(Err(error)) => {
+            Err(GenerateError::Cancelled) => {}
+            Err(error) => {
                 robot.is_partial_since = None;
                 robot.shown.set_making(Making::Failed(error.to_string()));
                 self.observer.done(&robot.job, &Err(error));
@@ -282,7 +275,6 @@ fn donors<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Vec<Root> {
     paths.into_iter().filter_map(|path| Root::open_folder(path).ok()).collect()
 }
 
-/// Collects the files of a picture.
 struct Reading<'a> {
     shown: &'a Shown,
     files: &'a Mutex<Files>,

@@ -15,10 +15,10 @@ use zip::CompressionMethod;
 use zip::write::{SimpleFileOptions, ZipWriter};
 
 use crate::assets;
-use crate::collection::Shown;
-use crate::export::{Published, published, unread};
 use crate::report::meanings;
-use crate::site_list::ExportError;
+use crate::route::{Published, published};
+use crate::shown::Shown;
+use crate::site::{ExportError, unread};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::regular;
 use urdd_directory::root::{EntryKind, ReadError, Root};
@@ -78,7 +78,8 @@ pub fn page_with(robot: &Shown, showing: Option<&str>) -> Result<String, ExportE
         hash(&script),
         hash(&style),
     );
-    let Published { root, report, mut entry } = published(robot)?;
+    let Published { root, report, mut entry } =
+        published(robot).map_err(|error| unread(robot, error))?;
     let (zip, left_out) = archive(robot, &root)?;
     entry["left_out"] = json!(left_out);
     let mut carried = String::new();

@@ -6,10 +6,8 @@
 use nalgebra::{Isometry3, Point3, Vector3};
 
 use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_generate::Selection;
 use urdd_robot::{LinkVisual, Robot, RobotError};
-
-/// What the page's first picture, the joints and the sliders need of a URDD, with the core class.
-pub const MODULES: &[&str] = &["plain_meshes"];
 
 /// Greatest width and height, pixels.
 pub const MAX_SIDE: u32 = 2048;
@@ -78,6 +76,11 @@ pub fn png(
     let [width, height] = size.map(|side| side as usize);
     let pixels = drawn(&facets, width, height, cancellation)?;
     Ok(pixels.and_then(|pixels| encoded(&pixels, size)))
+}
+
+/// What the page's first picture, the joints and the sliders need of a URDD: the core class, and plain meshes.
+pub fn modules() -> Selection {
+    Selection::parse(["plain_meshes"]).unwrap_or_else(|_| Selection::all())
 }
 
 /// The picture of a robot on its card; `None` if it has nothing to show, or cannot be read.

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use crate::collection::{Collection, Shown, Source};
-use crate::drop_folder::Drops;
+use crate::collection::Collection;
 use crate::revision;
+use crate::shown::{Shown, Source};
 use urdd_directory::root::Root;
 use urdd_findings::baseline::Baseline;
 use urdd_lint::LintSettings;
@@ -74,8 +74,7 @@ struct Project {
 
 impl Project {
     fn of(collection: &Collection, source: &Source) -> Self {
-        let is_dropped = |drops: &Drops| drops.holds(&source.file);
-        if collection.drops.as_ref().is_some_and(is_dropped) {
+        if collection.has_dropped(&source.file) {
             return Project::default();
         }
         let file = std::path::absolute(&source.file).ok();

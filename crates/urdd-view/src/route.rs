@@ -1,12 +1,13 @@
-//! Maps URLs to responses.
+//! Maps URLs to responses, and says what they and a site have of a robot.
 
 use percent_encoding::percent_decode_str;
 use serde_json::{Value, json};
 
-use crate::collection::{Collection, Making, Shown};
-use crate::reply::{Body, Reply};
-use crate::report::report_of;
-use crate::{assets, drops, picture, revision};
+use crate::collection::{Collection, MAX_DROP};
+use crate::http::{Body, Reply};
+use crate::report::{report_of, report_on};
+use crate::shown::{Making, Shown};
+use crate::{assets, picture, revision, save};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::limits::MAX_FILE_BYTES;
 use urdd_directory::root::{EntryKind, ReadError, Root};
@@ -22,7 +23,6 @@ pub enum Route {
     Unknown,
 }
 
-/// What is asked of a robot.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Asked {
     Revision,
@@ -74,7 +74,7 @@ impl Route {
             Route::Robot(_, Asked::Skips) => 64 << 20,
             Route::Robot(_, Asked::Configurations | Asked::States) => 1 << 20,
             Route::Robot(_, Asked::Keep) => 64 << 10,
-            Route::Drops => drops::MAX_BODY,
+            Route::Drops => MAX_DROP,
             _ => 0,
         }
     }
@@ -124,46 +124,12 @@ fn no_page() -> Reply {
     Reply::failure(404, "there is no such page\n")
 }
 
-/// The response to a read request about a robot.
-pub fn answer_about(collection: &Collection, robot: &Shown, asked: &Asked) -> Reply {
-    about(collection, robot, asked).unwrap_or_else(|error| failure(&error))
+pub fn cannot_be_done() -> Reply {
+    Reply::failure(405, "this cannot be done here\n")
 }
 
-fn about(collection: &Collection, robot: &Shown, asked: &Asked) -> Result<Reply, ReadError> {
-    Ok(match asked {
-        Asked::Revision => {
-            // Whoever asks for this shows the robot, or waits for it: see `live`.
-            robot.see();
-            // The entry first: a revision may be newer than what is said of the robot, and never older.
-            let entry = entry(robot);
-            let revision = robot.is_ready().then(|| revision::of(&robot.path()));
-            Reply::json(&json!({ "revision": revision, "entry": entry }))
-        }
-        Asked::Files => {
-            let (revision, opened) = robot.open()?;
-            let name = opened.own.folder_name();
-            let files = files(&opened.own)?;
-            Reply::json(&json!({ "name": name, "files": files, "revision": revision }))
-        }
-        Asked::Report => Reply::json_text(report_of(collection, robot)),
-        Asked::File(path) => {
-            let (file, size) = robot.own_files()?.open_file(path)?;
-            if size > MAX_FILE_BYTES {
-                return Err(ReadError::TooLarge { size, limit: MAX_FILE_BYTES });
-            }
-            // Never displayed as a page.
-            Reply::ok("application/octet-stream", Body::File(file, size))
-        }
-        Asked::Summary => Reply::json(&entry_with(robot, &report_of(collection, robot))),
-        Asked::Picture => match picture_of(robot) {
-            Some(bytes) => Reply::ok("image/png", Body::Bytes(bytes)),
-            None => Reply::nothing(),
-        },
-        Asked::Skips | Asked::Configurations | Asked::Keep | Asked::States => no_page(),
-    })
-}
-
-fn failure(error: &ReadError) -> Reply {
+/// The response to a request about a robot whose files cannot be read.
+pub fn unread(error: ReadError) -> Reply {
     let status = match error {
         ReadError::Missing | ReadError::NotAFile | ReadError::NotAUrdd => 404,
         ReadError::LeavesRoot | ReadError::Path(_) => 403,
@@ -171,6 +137,53 @@ fn failure(error: &ReadError) -> Reply {
         _ => 500,
     };
     Reply::failure(status, format!("{error}\n"))
+}
+
+/// The response to a request about a robot, by its method: GET, HEAD or POST.
+pub fn answer_about(
+    collection: &Collection,
+    robot: &Shown,
+    asked: (&str, &Asked),
+    body: &[u8],
+    ended: &Cancellation,
+) -> Result<Reply, ReadError> {
+    Ok(match asked {
+        ("POST", Asked::Skips) => save::skips(robot, body),
+        ("POST", Asked::Configurations) => save::configuration(robot, body),
+        ("POST", Asked::States) => save::state(robot, body),
+        ("POST", Asked::Keep) => save::keep(robot, body),
+        ("POST", _) => cannot_be_done(),
+        ("GET", Asked::States) => robot.states.stream(ended),
+        (_, Asked::Revision) => {
+            // Whoever asks for this shows the robot, or waits for it: see `live`.
+            robot.see();
+            // The entry first: a revision may be newer than what is said of the robot, and never older.
+            let entry = entry(robot);
+            let revision = robot.is_ready().then(|| revision::of(&robot.path()));
+            Reply::json(&json!({ "revision": revision, "entry": entry }))
+        }
+        (_, Asked::Files) => {
+            let (revision, opened) = robot.open()?;
+            let name = opened.own.folder_name();
+            let files = files(&opened.own)?;
+            Reply::json(&json!({ "name": name, "files": files, "revision": revision }))
+        }
+        (_, Asked::Report) => Reply::json_text(report_of(collection, robot)),
+        (_, Asked::File(path)) => {
+            let (file, size) = robot.own_files()?.open_file(path)?;
+            if size > MAX_FILE_BYTES {
+                return Err(ReadError::TooLarge { size, limit: MAX_FILE_BYTES });
+            }
+            // Never displayed as a page.
+            Reply::ok("application/octet-stream", Body::File(file, size))
+        }
+        (_, Asked::Summary) => Reply::json(&entry_with(robot, &report_of(collection, robot))),
+        (_, Asked::Picture) => match picture_of(robot) {
+            Some(bytes) => Reply::ok("image/png", Body::Bytes(bytes)),
+            None => Reply::nothing(),
+        },
+        (_, Asked::Skips | Asked::Configurations | Asked::Keep | Asked::States) => no_page(),
+    })
 }
 
 fn asset(name: &str, brotli: bool) -> Reply {
@@ -230,6 +243,25 @@ pub fn entry_with(robot: &Shown, report: &str) -> Value {
     entry
 }
 
+/// A robot as published: the URDD's own files, and the validator's report on them.
+pub struct Published {
+    pub root: Root,
+    pub report: String,
+    pub entry: Value,
+}
+
+pub fn published(robot: &Shown) -> Result<Published, ReadError> {
+    let root = robot.open()?.1.own;
+    let report =
+        report_on(&root, &robot.name).unwrap_or_else(|error| json!({ "error": error }).to_string());
+    let mut entry = entry_with(robot, &report);
+    // A site is read-only, and notes name files of this machine.
+    entry["writable"] = json!(false);
+    entry["temporary"] = json!(false);
+    entry["notes"] = json!([]);
+    Ok(Published { root, report, entry })
+}
+
 /// The picture of a robot, if it has one. Rendered once for each revision.
 pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
     let mut known = robot.picture.lock();
@@ -245,7 +277,6 @@ pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
     drawn
 }
 
-/// The path and size of each file below a root.
 fn files(root: &Root) -> Result<Value, ReadError> {
     let entries = root.list()?.entries.into_iter().filter(|entry| entry.kind == EntryKind::File);
     Ok(entries.map(|entry| json!({ "path": entry.path, "size": entry.size })).collect())

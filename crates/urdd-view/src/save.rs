@@ -1,16 +1,24 @@
-//! Saves what a user decided in the page, with sizes and hashes, atomically: edits of skips and the resulting matrices,
-//! and named configurations. Also undoes saves of skips, and takes configurations that a program sends.
+//! Saves what a user decided in the page, with sizes and hashes, atomically: edits of skips and the resulting matrices, and
+//! named configurations; and a URDD that was generated for display, into a folder. Also undoes saves of skips, and takes
+//! configurations that a program sends.
+
+use std::path::{Path, PathBuf, absolute};
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-use crate::collection::Shown;
-use crate::reply::{Reply, Result, failed, refused, wish};
+use crate::http::{Reply, Result, failed, refused, wish};
 use crate::revision;
+use crate::shown::{Making, Shown};
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::replacement::{Files, Replacement};
 use urdd_directory::root::Root;
+use urdd_directory::staging::Staging;
+use urdd_directory::take::take_content;
+use urdd_directory::target_lock::TargetLock;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_robot::Robot;
@@ -34,7 +42,6 @@ struct Wish {
     undo: bool,
 }
 
-/// What the page sends to name a configuration.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Pose {
@@ -167,7 +174,6 @@ fn named(robot: &Shown, wish: &Pose) -> Result<Files> {
     edited.map(|edited| edited.files).map_err(failed(400))
 }
 
-/// The files that change.
 fn made(robot: &Shown, edits: Vec<SkipEdit>, reasons: Option<Vec<SkippedReason>>) -> Result<Files> {
     if edits.len() > MAX_EDITS {
         return refused(400, "too many edits");
@@ -208,4 +214,79 @@ pub fn state(robot: &Shown, body: &[u8]) -> Reply {
             Reply::nothing()
         }
     }
+}
+
+/// Where the page wants a generated URDD.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Place {
+    /// The folder: absolute, relative to the home folder with `~/`, or relative to the working directory.
+    folder: String,
+}
+
+/// Saves a generated URDD into a new or empty folder.
+pub fn keep(robot: &Shown, body: &[u8]) -> Reply {
+    let kept = wish(body, "the name of a folder").and_then(|Place { folder }| kept(robot, &folder));
+    Reply::of(kept.map(|folder| {
+        let revision = revision::of(&folder);
+        json!({ "folder": folder.display().to_string(), "revision": revision })
+    }))
+}
+
+fn kept(robot: &Shown, folder: &str) -> Result<PathBuf> {
+    if !robot.is_temporary() {
+        return refused(403, "this URDD is already in a folder");
+    }
+    // While this is locked, no run replaces what is copied.
+    let path = robot.path();
+    let lock = TargetLock::at_once(&path).map_err(failed(500))?;
+    if lock.is_none() || robot.making() != Making::Done || robot.path() != path {
+        return refused(409, "this robot is still being generated; save it when it is complete");
+    }
+    let target = resolved(folder)?;
+    free(&target)?;
+    let staging = Staging::begin(&target, &Cancellation::default()).map_err(failed(403))?;
+    // Another run may have written there while this one waited.
+    free(&target)?;
+    take_content(&path, staging.content(), &|_| false).map_err(failed(500))?;
+    let place = staging.target().to_owned();
+    staging.commit().map_err(failed(500))?;
+    robot.keep_at(place.clone());
+    Ok(place)
+}
+
+fn resolved(folder: &str) -> Result<PathBuf> {
+    let said = folder.trim();
+    if said.is_empty() || said.contains('\0') {
+        return refused(400, "give a folder");
+    }
+    let path = match said.strip_prefix("~/") {
+        Some(rest) => std::env::home_dir()
+            .ok_or_else(|| (400, "the home folder is unknown: write the full path".to_owned()))?
+            .join(rest),
+        None => PathBuf::from(said),
+    };
+    absolute(&path).map_err(|error| (400, format!("{said}: {error}")))
+}
+
+/// Checks that nothing would be overwritten.
+fn free(target: &Path) -> Result<()> {
+    let shown = target.display();
+    let metadata = match std::fs::symlink_metadata(target) {
+        Ok(metadata) => metadata,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(()),
+        Err(error) => return refused(403, format!("{shown}: {error}")),
+    };
+    if !metadata.is_dir() {
+        return refused(403, format!("{shown}: a file of that name exists; nothing was saved"));
+    }
+    let entries = std::fs::read_dir(target).map_err(|error| (403, format!("{shown}: {error}")))?;
+    if entries.count() == 0 {
+        return Ok(());
+    }
+    let what = match target.join(ROOT_METADATA).is_file() {
+        true => "this folder has a URDD already; `urdd generate` into it keeps its edits",
+        false => "this folder is not empty",
+    };
+    refused(409, format!("{shown}: {what}. Nothing was saved; give another folder"))
 }

@@ -7,17 +7,14 @@ use std::time::Duration;
 
 use thiserror::Error;
 
-use crate::collection::{Collection, Shown};
-use crate::connections::{Connection, Connections};
-use crate::guard::{Caller, Guard};
-use crate::http::{Request, converse};
-use crate::reply::Reply;
-use crate::route::{Asked, Route, answer, answer_about};
-use crate::{cards, drops, keep, save};
+use crate::cards;
+use crate::collection::{Collection, take};
+use crate::guard::{Caller, Connection, Connections, Guard};
+use crate::http::{Reply, Request, converse};
+use crate::route::{Asked, Route, answer, answer_about, cannot_be_done, unread};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::hexadecimal::hexadecimal;
 
-/// The preferred port.
 const USUAL_PORT: u16 = 8642;
 /// Polling interval for connections and cancellation.
 const PAUSE: Duration = Duration::from_millis(2);
@@ -45,7 +42,6 @@ pub struct Server {
     answers: Answers,
 }
 
-/// What a request is answered from.
 struct Answers {
     guard: Guard,
     collection: Arc<Collection>,
@@ -147,36 +143,16 @@ impl Answers {
                 Some(robot) if asked == Asked::Picture && method != "POST" && !robot.is_ready() => {
                     cards::answer(&robot, &|| is_gone() || ended.is_cancelled())
                 }
-                Some(robot) => self.about(&robot, (method, &asked), body, ended),
+                Some(robot) => {
+                    answer_about(all, &robot, (method, &asked), body, ended).unwrap_or_else(unread)
+                }
                 None => Reply::failure(404, "there is no such robot\n"),
             },
             ("GET" | "HEAD", route) => answer(all, &route, takes_brotli(request)),
-            ("POST", Route::Drops) => drops::take(all, body, is_gone),
+            ("POST", Route::Drops) => take(all, body, is_gone),
             _ => cannot_be_done(),
         }
     }
-
-    fn about(
-        &self,
-        robot: &Shown,
-        asked: (&str, &Asked),
-        body: &[u8],
-        ended: &Cancellation,
-    ) -> Reply {
-        match asked {
-            ("GET", Asked::States) => robot.states.stream(ended),
-            ("GET" | "HEAD", asked) => answer_about(&self.collection, robot, asked),
-            ("POST", Asked::Skips) => save::skips(robot, body),
-            ("POST", Asked::Configurations) => save::configuration(robot, body),
-            ("POST", Asked::States) => save::state(robot, body),
-            ("POST", Asked::Keep) => keep::keep(robot, body),
-            _ => cannot_be_done(),
-        }
-    }
-}
-
-fn cannot_be_done() -> Reply {
-    Reply::failure(405, "this cannot be done here\n")
 }
 
 fn takes_brotli(request: &Request) -> bool {

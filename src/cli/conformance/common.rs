@@ -15,9 +15,8 @@ use parking_lot::Mutex;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::cli::output::{self, Failure, about};
-use crate::cli::signals::{self, Signals};
-use urdd_conformance::skips::{self, Skip};
+use crate::cli::output::{self, Failure, Signals, about};
+use urdd_conformance::running::{Skip, read_skips};
 use urdd_directory::{outputs, regular};
 use urdd_validate::report;
 
@@ -79,12 +78,10 @@ enum SuiteFormat {
 }
 
 impl RunArguments {
-    /// The time limit.
     pub fn limit(&self) -> Duration {
         Duration::from_secs(self.timeout)
     }
 
-    /// Creates the progress display and the log.
     pub fn follow(&self) -> Result<Follow, Failure> {
         let Some(path) = &self.log else {
             return Ok(Follow::new(None));
@@ -110,7 +107,6 @@ impl RunArguments {
         Ok(())
     }
 
-    /// The skip list.
     pub fn skips(&self, words: usize, form: &'static str) -> Result<Vec<Skip>, Failure> {
         let Some(file) = &self.skip else {
             return Ok(Vec::new());
@@ -119,7 +115,7 @@ impl RunArguments {
         let unreadable = |reason: &dyn Display| format!("{shown}: cannot be read: {reason}");
         let bytes = regular::read(file, MAX_SKIP_BYTES).map_err(|error| unreadable(&error))?;
         let text = String::from_utf8(bytes).map_err(|_| unreadable(&"it is not UTF-8"))?;
-        Ok(skips::read(&text, words, form).map_err(|error| format!("{shown}: {error}"))?)
+        Ok(read_skips(&text, words, form).map_err(|error| format!("{shown}: {error}"))?)
     }
 
     /// Prints a result, and writes it to the file of `--output`. `human` writes it for people.
@@ -154,13 +150,12 @@ fn is_log(file: &Path) -> bool {
 /// for skipped items; a failed item and a stale skip have the exit status 1.
 pub fn run(result: impl FnOnce(&Signals) -> Result<bool, Failure>) -> Result<u8, Failure> {
     let stopped = "stopped by a signal; all started processes have ended";
-    signals::run(Some(stopped), |signals| Ok(u8::from(!result(signals)?)))
+    output::stoppable(Some(stopped), |signals| Ok(u8::from(!result(signals)?)))
 }
 
 /// Time between two lines where standard error is not a terminal.
 const INTERVAL: Duration = Duration::from_secs(10);
 
-/// The message for a file that cannot be written.
 fn cannot_write(file: &Path, error: &std::io::Error) -> String {
     format!("{}: cannot be written: {error}", file.display())
 }
@@ -176,7 +171,6 @@ pub struct Follow {
 #[derive(Default)]
 struct State {
     log: Option<(PathBuf, File)>,
-    /// Number of items to run.
     of: usize,
     done: usize,
     wrong: usize,
@@ -224,7 +218,6 @@ impl Follow {
         });
     }
 
-    /// Sets the number of items to run.
     pub fn start(&self, of: usize) {
         self.state.lock().of = of;
         self.bar.set_length(of as u64);
@@ -261,7 +254,6 @@ impl Follow {
         self.bar.inc(1);
     }
 
-    /// Ends the run.
     pub fn finish(mut self) -> Result<(), String> {
         self.lines.take();
         self.bar.finish_and_clear();

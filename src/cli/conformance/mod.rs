@@ -1,17 +1,23 @@
-//! `urdd conformance`: `export` here, and a file for each of the other commands.
+//! `urdd conformance`: `export` and `producer` here, `validator` in a file of its own.
 
 mod common;
-mod producer;
 mod validator;
 
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use clap::Subcommand;
+use clap::{Args, Subcommand};
 
-use super::output::{self, Failure};
+use self::common::RunArguments;
+use super::arguments::Class;
+use super::output::{self, Failure, Signals};
 use crate::suite;
-use urdd_conformance::catalogue::{CATALOGUE, CATALOGUE_1_1};
-use urdd_conformance::export::export;
+use urdd_conformance::export::{CATALOGUE, CATALOGUE_1_1, export};
+use urdd_conformance::process::Template;
+use urdd_conformance::producer::{Event, Plan, SKIP_FORM, run as run_producer};
+use urdd_format::conformance::{
+    ModuleStatus, ProducerResult, RefusedOutcome, RefusedScore, RobotScore, ScoreStatus,
+};
 
 /// The commands of `urdd conformance`.
 #[derive(Subcommand)]
@@ -23,17 +29,20 @@ pub enum ConformanceCommand {
         folder: PathBuf,
     },
     /// Run a producer on the suite's robots, and score the URDDs that it writes.
-    Producer(producer::ProducerArguments),
+    Producer(ProducerArguments),
     /// Run a validator on every case, and score its verdicts.
     Validator(validator::ValidatorArguments),
 }
 
-/// Runs `urdd conformance`.
 pub fn run(command: &ConformanceCommand) -> Result<u8, Failure> {
     match command {
         ConformanceCommand::Export { folder } => exported(folder),
-        ConformanceCommand::Producer(arguments) => producer::run(arguments),
-        ConformanceCommand::Validator(arguments) => validator::run(arguments),
+        ConformanceCommand::Producer(arguments) => {
+            common::run(|signals| produced(arguments, signals))
+        }
+        ConformanceCommand::Validator(arguments) => {
+            common::run(|signals| validator::judged(arguments, signals))
+        }
     }
 }
 
@@ -53,4 +62,156 @@ fn exported(folder: &Path) -> Result<u8, Failure> {
     }
     output::print(&text)?;
     Ok(0)
+}
+
+/// Arguments of `urdd conformance producer`.
+#[derive(Args)]
+#[command(
+    after_help = "In COMMAND, {urdf} stands for a URDF file and {out} for the folder to write its URDD into; the \
+    command runs once for each robot. Some URDFs have no URDD as they are: the command must refuse them (end with \
+    another exit status than 0, say why, and leave nothing at {out}), or repair them (write a valid URDD that carries \
+    the repaired text).\n\nExit status: 0 every robot passed or is skipped; 1 a robot failed, or a skip is stale; 2 \
+    usage error; 129, 130 or 143 stopped by a signal: SIGHUP, SIGINT, SIGTERM."
+)]
+pub struct ProducerArguments {
+    /// The required conformance class.
+    #[arg(long, value_name = "CLASS", default_value = "core", ignore_case = true)]
+    class: Class,
+
+    /// Runs only this robot, such as `gripper`, or `URD005/link-held-by-two-joints` of those to refuse. May be repeated.
+    #[arg(long = "robot", value_name = "NAME")]
+    robots: Vec<String>,
+
+    #[command(flatten)]
+    run: RunArguments,
+}
+
+/// Runs `urdd conformance producer`. Returns whether it passed.
+fn produced(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, Failure> {
+    let plan = Plan {
+        command: Template::new(&arguments.run.command, &["urdf", "out"])?,
+        class: arguments.class.into(),
+        robots: arguments.robots.clone(),
+        limit: arguments.run.limit(),
+        skips: arguments.run.skips(2, SKIP_FORM)?,
+        jobs: arguments.run.jobs.map_or(1, usize::from),
+        keep: arguments.run.keep.clone(),
+        cancellation: signals.cancellation(),
+    };
+    let suite = suite::carried()?;
+    let follow = arguments.run.follow()?;
+    let observe = |event: &Event| match event {
+        Event::Start(of) => follow.start(*of),
+        Event::Scored(robot) => follow.done(robot.status == ScoreStatus::Failed, Some(robot)),
+        Event::Refused(urdf) => follow.done(urdf.status == ScoreStatus::Failed, Some(urdf)),
+    };
+    let result = run_producer(&plan, &suite, &observe);
+    follow.finish()?;
+    let result = result?;
+    arguments.run.print(&result, human)?;
+    Ok(result.passed)
+}
+
+fn human(result: &ProducerResult, out: &mut String) -> std::fmt::Result {
+    for robot in &result.robots {
+        one(robot, out)?;
+    }
+    for urdf in &result.refused {
+        to_refuse(urdf, out)?;
+    }
+    writeln!(out)?;
+    for class in &result.classes {
+        let name = class.class.as_str();
+        writeln!(out, "class {name}: {} of {} robots", class.passed.get(), class.of.get())?;
+    }
+    for module in &result.modules {
+        let codes = match module.codes.is_empty() {
+            true => String::new(),
+            false => format!(": {}", module.codes.join(" ")),
+        };
+        writeln!(out, "  {} {} of {}{codes}", module.name, module.passed.get(), module.of.get())?;
+    }
+    if !result.refused.is_empty() {
+        let refused = result.refused.iter();
+        let passed = refused.filter(|urdf| urdf.status == ScoreStatus::Passed);
+        let (passed, of) = (passed.count(), result.refused.len());
+        writeln!(out, "URDFs to refuse: {passed} of {of} refused or repaired")?;
+    }
+    for stale in &result.stale_skips {
+        writeln!(out, "stale skip, remove it: {stale}")?;
+    }
+    let verdict = if result.passed { "passed" } else { "FAILED" };
+    writeln!(out, "{verdict}")
+}
+
+fn status(status: ScoreStatus, skipped_since: Option<&str>) -> String {
+    match status {
+        ScoreStatus::Passed => "passed".to_owned(),
+        ScoreStatus::Failed => "FAILED".to_owned(),
+        ScoreStatus::Skipped => format!("skipped ({})", skipped_since.unwrap_or_default()),
+    }
+}
+
+fn indented(text: Option<&str>, out: &mut String) -> std::fmt::Result {
+    text.into_iter().flat_map(str::lines).try_for_each(|line| writeln!(out, "    {line}"))
+}
+
+fn to_refuse(urdf: &RefusedScore, out: &mut String) -> std::fmt::Result {
+    let status = status(urdf.status, urdf.skipped_since.as_deref());
+    let fault = match urdf.outcome {
+        RefusedOutcome::Refused | RefusedOutcome::Repaired => return Ok(()),
+        RefusedOutcome::Written => "neither refused nor repaired",
+        RefusedOutcome::LeftOver => "refused, but something is at {out}",
+        RefusedOutcome::Silent => "refused, but did not say why",
+        RefusedOutcome::Crashed => "crashed, or did not end by itself",
+    };
+    writeln!(out, "{} {status}\n  {fault}: {}", urdf.robot, urdf.end)?;
+    if urdf.outcome == RefusedOutcome::Crashed {
+        indented(urdf.stderr.as_deref(), out)?;
+    }
+    if let Some(reason) = &urdf.unreadable {
+        writeln!(out, "  {reason}")?;
+    }
+    if !urdf.codes.is_empty() {
+        writeln!(out, "  the URDD: {}", urdf.codes.join(" "))?;
+    }
+    Ok(())
+}
+
+fn one(robot: &RobotScore, out: &mut String) -> std::fmt::Result {
+    let status = status(robot.status, robot.skipped_since.as_deref());
+    writeln!(out, "{} {status}", robot.robot)?;
+    if robot.status == ScoreStatus::Passed {
+        return Ok(());
+    }
+    if robot.end != "exit status 0" {
+        writeln!(out, "  {}", robot.end)?;
+        indented(robot.stderr.as_deref(), out)?;
+    }
+    if let Some(reason) = &robot.unreadable {
+        writeln!(out, "  {reason}")?;
+    }
+    if !robot.codes.is_empty() {
+        writeln!(out, "  the directory: {}", robot.codes.join(" "))?;
+    }
+    for module in &robot.modules {
+        let skipped = match &module.skipped_since {
+            Some(reason) => format!(" (skipped: {reason})"),
+            None => String::new(),
+        };
+        match module.status {
+            ModuleStatus::Passed => {}
+            // If there is no output at all, the text above says so.
+            ModuleStatus::Missing if robot.unreadable.is_some() => {}
+            ModuleStatus::Missing if robot.end != "exit status 0" => {}
+            ModuleStatus::Missing => writeln!(out, "  {} is missing{skipped}", module.name)?,
+            ModuleStatus::Failed => {
+                writeln!(out, "  {}{skipped}: {}", module.name, module.codes.join(" "))?;
+                if let Some(first) = &module.first {
+                    writeln!(out, "    {first}")?;
+                }
+            }
+        }
+    }
+    Ok(())
 }

@@ -5,9 +5,8 @@ use std::fmt::Write;
 use clap::{Args, ValueEnum};
 use semver::Version;
 
-use super::common::{self, RunArguments};
-use crate::cli::output::Failure;
-use crate::cli::signals::Signals;
+use super::common::RunArguments;
+use crate::cli::output::{Failure, Signals};
 use crate::suite;
 use urdd_conformance::process::Template;
 use urdd_conformance::validator::{Event, Fault, Judged, Plan, SKIP_FORM, run as run_validator};
@@ -77,12 +76,8 @@ enum ProfileName {
     CoreJson,
 }
 
-/// Runs `urdd conformance validator`.
-pub fn run(arguments: &ValidatorArguments) -> Result<u8, Failure> {
-    common::run(|signals| result(arguments, signals))
-}
-
-fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Failure> {
+/// Runs `urdd conformance validator`. Returns whether it passed.
+pub fn judged(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Failure> {
     let command = match arguments.batch {
         true => Template::batch(&arguments.run.command, "dir"),
         false => Template::new(&arguments.run.command, &["dir"]),
@@ -195,7 +190,6 @@ fn wrong(
     Ok(())
 }
 
-/// Most cases that are named in a line.
 const MAX_NAMED: usize = 10;
 
 fn codes(printed: &PrintedCodes, out: &mut String) -> std::fmt::Result {

@@ -6,21 +6,17 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::loops::LoopsInfo;
-use super::parts::{self, PartInfo};
-use super::skipped::{self, SkippedContact};
-use super::spheres::{self, LevelInfo};
-use super::statics::Statics;
+use super::modules::{
+    GeometryInfo, LevelInfo, LoopsInfo, ModelInfo, PartInfo, base, part_tree, write_parts,
+    write_spheres,
+};
+use super::sampled::{SkippedContact, Statics, write_skipped};
 use urdd_directory::root::ReadError;
 use urdd_document::urdd::Urdd;
 use urdd_export::JointOrder;
 use urdd_format::dof::Quantity;
 use urdd_format::escape;
-use urdd_format::meshes::GeometryKind;
-use urdd_format::rate::Rate;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
-use urdd_format::self_collision_model::ModelEvaluation;
-use urdd_validate::{ModelVerdict, verify_model};
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Info {
@@ -29,29 +25,22 @@ pub struct Info {
     pub robot_name: Option<String>,
     /// Version of the specification that the root metadata states.
     pub urdd_version: Option<String>,
-    /// The claimed conformance class.
     pub conformance_class: Option<String>,
-    /// Path of the carried source URDF.
     pub urdf: Option<String>,
     pub links: Option<usize>,
-    /// Number of joints of each type.
     pub joints: BTreeMap<String, usize>,
     pub dofs: Vec<DofInfo>,
     /// Name of the base link of a composed robot: the link that carries parts and belongs to none.
     pub base: Option<String>,
-    /// The parts of a composed robot, as a tree.
     pub parts: Vec<PartInfo>,
-    /// The rates of the self-collision model.
     pub collision_model: Option<ModelInfo>,
     /// Which elements the shapes of links are made of; null without `plain_meshes_module`.
     pub geometry: Option<GeometryInfo>,
     /// Pairs of links that are skipped because they touch in the default configuration, or in the reference; null if the
     /// modules of shapes are missing or cannot be read.
     pub skipped_contacts: Option<Vec<SkippedContact>>,
-    /// What closes the loops of a robot that is no tree.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub loops: Option<LoopsInfo>,
-    /// The levels of spheres of links.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub spheres: Vec<LevelInfo>,
     pub modules: Vec<ModuleInfo>,
@@ -72,113 +61,10 @@ pub struct DofInfo {
     pub bounds: Option<[f64; 2]>,
 }
 
-/// The elements that the shapes of links are made of.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct GeometryInfo {
-    /// Number of links whose shapes are those of their visual elements.
-    pub visual: usize,
-    /// Number of links whose shapes are those of their collision elements.
-    pub collision: usize,
-    /// Number of links with collision elements, whatever was taken; null if the URDF's module cannot be read.
-    pub with_collision: Option<usize>,
-}
-
-impl GeometryInfo {
-    fn of(urdd: &Urdd) -> Option<Self> {
-        let Some(ModuleDocument::PlainMeshes(plain)) = urdd.document(ModuleKind::PlainMeshes)
-        else {
-            return None;
-        };
-        let count = |kind| {
-            let meshes = plain.link_meshes.iter().flatten();
-            meshes.filter(|mesh| mesh.geometry == kind).count()
-        };
-        let links = urdd.robot().map(|robot| robot.links.iter());
-        Some(Self {
-            visual: count(GeometryKind::Visual),
-            collision: count(GeometryKind::Collision),
-            with_collision: links
-                .map(|links| links.filter(|link| !link.collision.is_empty()).count()),
-        })
-    }
-
-    fn write(&self, out: &mut impl Write) -> fmt::Result {
-        let Self { visual, collision, with_collision } = self;
-        let what = match visual + collision {
-            0 => "no link has shapes: nothing can collide".to_owned(),
-            _ => format!("visual elements of {visual} links, collision elements of {collision}"),
-        };
-        let none = match with_collision {
-            Some(0) if *visual > 0 => "; no link has a collision element",
-            _ => "",
-        };
-        writeln!(out, "  shapes    {what}{none}")
-    }
-}
-
-/// The rates of a self-collision model, as its module states them.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ModelInfo {
-    /// Share of collisions that it misses.
-    pub miss_rate: Rate,
-    /// Share of collisions near contact that it misses.
-    pub near_contact_miss_rate: Rate,
-    /// Share of free configurations that it clears.
-    pub clear_rate: Rate,
-    /// Whether a recount gives these rates; null if they were not verified.
-    pub verified: Option<bool>,
-    /// Why the rates are wrong or were not verified.
-    pub reasons: Vec<String>,
-}
-
-impl ModelInfo {
-    /// Verifies the stated rates with a recount.
-    fn new(evaluation: &ModelEvaluation, path: &Path) -> Self {
-        let (verified, reasons) = match verify_model(path) {
-            ModelVerdict::Verified => (Some(true), Vec::new()),
-            ModelVerdict::Refuted(codes) => {
-                let reasons = codes.iter().map(|code| format!("{code} found a fault"));
-                (Some(false), reasons.collect())
-            }
-            ModelVerdict::NotVerified(reasons) => (None, reasons),
-        };
-        Self {
-            miss_rate: evaluation.miss_rate(),
-            near_contact_miss_rate: evaluation.near_contact_miss_rate(),
-            clear_rate: evaluation.clear_rate(),
-            verified,
-            reasons,
-        }
-    }
-
-    fn write(&self, out: &mut impl Write) -> fmt::Result {
-        let verdict = match self.verified {
-            Some(true) => "verified",
-            Some(false) => "NOT TRUE",
-            None => "not verified",
-        };
-        let reasons = match self.reasons.is_empty() {
-            true => String::new(),
-            false => format!(": {}", safe(&self.reasons.join(", "))),
-        };
-        let Self { miss_rate, near_contact_miss_rate: near, clear_rate, .. } = self;
-        let margin = "            ";
-        writeln!(out, "  model     rates {verdict}{reasons} (95 % intervals in brackets)")?;
-        writeln!(out, "{margin}misses {miss_rate} collisions")?;
-        writeln!(
-            out,
-            "{margin}misses {near} collisions within a step of 0.05 rad or m of contact"
-        )?;
-        writeln!(out, "{margin}clears {clear_rate} free configurations")
-    }
-}
-
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModuleInfo {
-    /// Path of its folder.
     pub path: String,
     pub version: Option<String>,
-    /// Number of its files.
     pub files: usize,
     /// Total size of its files, in bytes.
     pub bytes: u64,
@@ -217,8 +103,8 @@ impl Info {
             links: robot.map(|robot| robot.links.len()),
             joints,
             dofs: dofs(&urdd),
-            base: composition.and_then(|of| parts::base(of.base.as_ref(), robot)),
-            parts: composition.map_or_else(Vec::new, |of| parts::tree(&of.parts, robot)),
+            base: composition.and_then(|of| base(of.base.as_ref(), robot)),
+            parts: composition.map_or_else(Vec::new, |of| part_tree(&of.parts, robot)),
             collision_model: model,
             geometry: GeometryInfo::of(&urdd),
             // A URDD without skips is not opened again.
@@ -273,7 +159,6 @@ fn dofs(urdd: &Urdd) -> Vec<DofInfo> {
         .collect()
 }
 
-/// Writes the contents of a URDD for people.
 pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
     let or = |text: &Option<String>, without: &str| safe(text.as_deref().unwrap_or(without));
     writeln!(out, "{}", safe(&info.path))?;
@@ -304,15 +189,15 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
     if let Some(geometry) = &info.geometry {
         geometry.write(out)?;
     }
-    skipped::write(info.skipped_contacts.as_deref().unwrap_or_default(), out)?;
+    write_skipped(info.skipped_contacts.as_deref().unwrap_or_default(), out)?;
     if let Some(model) = &info.collision_model {
         model.write(out)?;
     }
-    spheres::write(&info.spheres, out)?;
+    write_spheres(&info.spheres, out)?;
     if !info.parts.is_empty() {
         let base = info.base.as_deref().map(|base| format!("on {}", safe(base)));
         writeln!(out, "{}", format!("  parts     {}", base.unwrap_or_default()).trim_end())?;
-        parts::write(&info.parts, "    ", out)?;
+        write_parts(&info.parts, "    ", out)?;
     }
     writeln!(out, "  modules   {}", info.modules.len())?;
     let width = widest(info.modules.iter().map(|module| &module.path));

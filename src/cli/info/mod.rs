@@ -1,26 +1,26 @@
-//! `urdd info`.
+//! `urdd info`, and what it says of the xacro files of a package.
 
 mod contents;
-mod loops;
-mod parts;
-mod robots;
-mod skipped;
-mod spheres;
-mod statics;
+mod modules;
+mod sampled;
 
-use std::fmt::Display;
-use std::path::PathBuf;
+use std::fmt::{self, Display, Write};
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 
+use self::contents::Info;
+use self::sampled::{Statics, StaticsArguments};
+use super::arguments::around;
 use super::inputs;
-use super::output::Failure;
-use contents::Info;
-use robots::robot_files;
-use statics::{Statics, StaticsArguments};
+use super::output::{self, Failure, about, shown};
 use urdd_directory::discover::{Found, discover};
+use urdd_directory::file_type::FileType;
 use urdd_export::joint_orders;
 use urdd_format::escape;
+use urdd_source::arguments::{XacroArgument, arguments};
+use urdd_source::robots::{BatchError, jobs};
 use urdd_validate::report;
 
 /// Arguments of `urdd info`.
@@ -85,7 +85,7 @@ pub fn run(arguments: &InfoArguments) -> Result<String, Failure> {
     }
     let mut text = String::new();
     for file in &files {
-        robots::write(file, &mut text)?;
+        write_robot_file(file, &mut text)?;
         text.push('\n');
     }
     for info in &infos {
@@ -93,4 +93,61 @@ pub fn run(arguments: &InfoArguments) -> Result<String, Failure> {
         text.push('\n');
     }
     Ok(text)
+}
+
+#[derive(Serialize)]
+struct RobotFile {
+    /// The file, from the current folder.
+    source: String,
+    arguments: Vec<ArgumentInfo>,
+}
+
+#[derive(Serialize)]
+struct ArgumentInfo {
+    name: String,
+    default: Option<String>,
+    values: Vec<String>,
+    is_needed: bool,
+}
+
+/// The xacro files of robots at or below a path. Nothing is run.
+fn robot_files(path: &Path) -> Result<Vec<RobotFile>, BatchError> {
+    let settings = around();
+    let of = |source: PathBuf| {
+        let found = arguments(&source, &settings);
+        let found = found.inspect_err(|error| output::error(&about(&source)(error)));
+        let info = |XacroArgument { name, default, values, is_needed, .. }| ArgumentInfo {
+            name,
+            default,
+            values,
+            is_needed,
+        };
+        let arguments = found.unwrap_or_default().into_iter().map(info).collect();
+        RobotFile { source: source.to_string_lossy().replace('\\', "/"), arguments }
+    };
+    let mut jobs = jobs(&[path.to_owned()], &settings)?;
+    jobs.retain(|job| FileType::Xacro.is_of(&job.source));
+    Ok(jobs.into_iter().map(|job| of(job.source)).collect())
+}
+
+/// Writes a file, with a line for each argument.
+fn write_robot_file(file: &RobotFile, out: &mut String) -> fmt::Result {
+    writeln!(out, "{}", shown(Path::new(&file.source)))?;
+    if file.arguments.is_empty() {
+        writeln!(out, "  no arguments")?;
+    }
+    for argument in &file.arguments {
+        write!(out, "  {}", escape::line(&argument.name))?;
+        if let Some(default) = &argument.default {
+            write!(out, " = {}", escape::quoted(default))?;
+        }
+        if argument.is_needed {
+            write!(out, ", needs a value")?;
+        }
+        if !argument.values.is_empty() {
+            write!(out, ": {}", escape::line(&argument.values.join(", ")))?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
 }

@@ -3,8 +3,8 @@
 use std::fs;
 
 use serde_json::{Value, json};
-use urdd_conformance::case::CaseKind;
-use urdd_conformance::catalogue::items;
+use urdd_conformance::export::items;
+use urdd_conformance::suite::CaseKind;
 
 use crate::conformance::{conformance, result, stderr};
 

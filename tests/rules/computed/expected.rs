@@ -4,14 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use urdd_conformance::case::{Case, CaseKind};
 use urdd_conformance::data::{CASES, COMPUTED};
-use urdd_conformance::judge;
-use urdd_conformance::suite::Suite;
+use urdd_conformance::suite::{Case, CaseKind, Suite};
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;
 
 use super::files;
+use crate::judge;
 
 /// The places that the validator finds in a case. Panics if it finds something by another rule, or by the wrong one.
 fn found(suite: &Suite, case: &Case) -> Value {

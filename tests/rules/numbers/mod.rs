@@ -16,7 +16,7 @@ mod spheres;
 
 use std::collections::BTreeMap;
 
-use urdd_conformance::case::CaseKind;
+use urdd_conformance::suite::CaseKind;
 use urdd_validate::code::Code;
 
 use crate::{Case, changed};

@@ -6,18 +6,15 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use testkit::repository;
 use testkit::trials::sample;
-use urdd_conformance::case::{Case, CaseKind, Verdict};
-use urdd_conformance::judge;
-use urdd_conformance::suite::Suite;
+use urdd_conformance::suite::{Case, CaseKind, Suite, Verdict};
 use urdd_conformance::tree::{Node, Tree, TreeError};
-use urdd_conformance::valid;
 use urdd_directory::source::Memory;
 use urdd_findings::description::Severity;
 use urdd_format::report::Report;
 use urdd_validate::settings::Settings;
 use urdd_validate::{rules, validate, validate_source};
 
-use crate::suite;
+use crate::{judge, suite};
 
 /// A case as files in memory, which takes a third of the time. `None` if it has what only a disk holds: links, empty
 /// folders, files beside the URDD, odd names.
@@ -67,7 +64,7 @@ fn the_pages_say_how_much_there_is() {
     let said = |hundreds: usize| format!("more than {hundreds}00 cases");
     let hundreds = suite().cases.len() / 100;
     let cases = said(hundreds);
-    let robots = match valid::robots(&suite().data).len() {
+    let robots = match suite().data.robots().len() {
         9 => "nine robots",
         others => panic!("{others} robots; the pages say nine"),
     };

@@ -4,8 +4,8 @@ use std::fs;
 
 use serde_json::Value;
 use testkit::trials::sample;
-use urdd_conformance::case::Case;
 use urdd_conformance::export::export;
+use urdd_conformance::suite::Case;
 
 use crate::suite;
 

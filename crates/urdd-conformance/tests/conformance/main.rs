@@ -5,6 +5,7 @@
 
 mod cases;
 mod export;
+mod judge;
 mod profile;
 mod unreadable;
 mod valid;

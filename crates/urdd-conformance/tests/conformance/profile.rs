@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use urdd_conformance::case::{CaseKind, Verdict};
-use urdd_conformance::catalogue::{Item, items};
+use urdd_conformance::export::{Item, items};
+use urdd_conformance::suite::{CaseKind, Verdict};
 
 use crate::suite;
 

@@ -1,15 +1,13 @@
 //! Cases about what cannot be read, judged by our validator.
 
 use rayon::prelude::*;
-use urdd_conformance::case::{Case, CaseKind, Verdict};
-use urdd_conformance::judge;
-use urdd_conformance::suite::Suite;
+use urdd_conformance::suite::{Case, CaseKind, Suite, Verdict};
 use urdd_conformance::tree::Node;
 use urdd_format::report::Report;
 use urdd_validate::settings::Settings;
 use urdd_validate::{ValidateError, validate};
 
-use crate::suite;
+use crate::{judge, suite};
 
 /// The report on a case; `None` where nothing was there to examine.
 fn report(case: &Case, suite: &Suite) -> Option<Report> {

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::fs;
 
+use urdd_conformance::data::kept;
 use urdd_conformance::export::write_valid;
 use urdd_conformance::tree::{Node, Tree};
-use urdd_conformance::valid;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;
 
@@ -19,15 +19,15 @@ fn generating_gives_what_is_kept_and_nothing_is_found_in_it() {
     let suite = suite();
     let folder = testkit::temporary::folder();
     let robots = folder.path().join("robots");
-    valid::write_robots(&suite.data, &robots).expect("the robots");
+    suite.data.write_robots(&robots).expect("the robots");
     let urdds = folder.path().join("valid");
-    write_valid(&suite.data, &valid::robots(&suite.data), &robots, &urdds, &Default::default())
+    write_valid(&suite.data, &suite.data.robots(), &robots, &urdds, &Default::default())
         .expect("URDDs");
     let update = std::env::var_os("URDD_UPDATE").is_some();
     let mut stale = BTreeSet::new();
-    for robot in valid::robots(&suite.data) {
+    for robot in suite.data.robots() {
         let made = urdds.join(&robot);
-        let made = valid::kept(&Tree::read(&made, &made).expect("a URDD"));
+        let made = kept(&Tree::read(&made, &made).expect("a URDD"));
         let place = testkit::repository().join("conformance/valid").join(&robot);
         let kept = match place.is_dir() {
             true => Tree::read(&place, &place).expect("a folder of the suite"),
@@ -59,8 +59,8 @@ fn generating_gives_what_is_kept_and_nothing_is_found_in_it() {
 #[test]
 fn what_is_not_kept_is_in_the_hashes() {
     let suite = suite();
-    for robot in valid::robots(&suite.data) {
-        let kept = valid::carried(&suite.data, &robot);
+    for robot in suite.data.robots() {
+        let kept = suite.data.carried(&robot);
         let root = kept.file("urdd.json").expect("urdd.json");
         let root: serde_json::Value = serde_json::from_slice(root).expect("JSON");
         let modules = root["modules"].as_array().expect("a list");

@@ -4,9 +4,9 @@
 use std::fmt::{self, Write};
 
 use super::human::{self, times};
-use super::place::{file_in, is_inside};
 use super::programs::cell;
-use super::words::unit;
+use super::style::unit;
+use crate::run::{file_in, is_inside};
 use urdd_format::escape;
 use urdd_format::readable::counted;
 use urdd_format::report::{Report, Severity, Status, Urdd, Verdict};
@@ -66,13 +66,11 @@ pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::
     Ok(())
 }
 
-/// The text of a command.
 fn data(text: &str) -> String {
     // Line breaks are already escaped. A percent sign starts an escape sequence of Actions.
     escape::line(text).replace('%', "%25")
 }
 
-/// A property of a command.
 fn property(text: &str) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
 }

@@ -12,12 +12,11 @@ use urdd_format::escape::{self, line as safe};
 use urdd_format::readable::{counted, number};
 use urdd_format::registry::ModuleKind;
 
-use super::fill::by_reason;
-use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
-use super::words::{list, unit, unverified};
+use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, list, severity, unit, unverified};
 use super::{programs, summary};
 use crate::code::Code;
-use crate::skip::SkipReason;
+use crate::part::SkipReason;
+use crate::run::by_reason;
 use urdd_format::report::{
     CheckStatus, Deed, Finding, ImportedFrom, Kind, Magnitude, Place, Report, Skipped, Status,
     Urdd, Verdict,
@@ -148,7 +147,6 @@ fn describe(urdd: &Urdd) -> String {
     parts.join(", ")
 }
 
-/// Writes one finding.
 pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Write) -> fmt::Result {
     let times = times(finding);
     let code = style.paint(BOLD, &finding.code);

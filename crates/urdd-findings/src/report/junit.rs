@@ -41,7 +41,6 @@ pub fn junit(run: &Run, places: &[String], fail_on: Severity) -> io::Result<Stri
     Ok(String::from_utf8_lossy(&out.into_inner()).into_owned() + "\n")
 }
 
-/// The cases of one URDD.
 struct Suite {
     name: String,
     cases: Vec<Case>,

@@ -1,24 +1,23 @@
-//! The report of the format: the engine fills it, and one file per format renders it.
+//! The report as JSON; a file for each other format.
 
-#[doc(hidden)]
-pub mod causes;
-mod fill;
 pub mod github;
 pub mod human;
 pub mod junit;
-pub mod place;
 pub mod programs;
 pub mod sarif;
 pub mod style;
 #[doc(hidden)]
 pub mod summary;
-mod words;
+
+/// Paths of URDDs relative to the working directory.
+pub mod place {
+    pub use crate::run::{file_in, is_inside, places, relative};
+}
 
 use serde::Serialize;
 
 use urdd_format::escape;
 
-pub(crate) use fill::fill;
 pub use github::{github, markdown};
 pub use junit::junit;
 pub use sarif::sarif;

@@ -1,13 +1,89 @@
-//! What programs do with a URDF, as a line: ``ROS refuses it (LNT060 at 28:5) · MuJoCo loads it without the mimic of `tip` ``.
+//! What programs do with a URDF, in sentences and as a line: ``ROS refuses it (LNT060 at 28:5) · MuJoCo loads it
+//! without the mimic of `tip` ``.
 
 use std::collections::BTreeMap;
 
+use crate::check::Examined;
+use crate::run;
 use urdd_format::readable::counted;
 use urdd_format::report::{Deed, Does, Place, ProgramResult, Report, Severity, Urdd};
 
-use super::fill;
-use crate::examined::Examined;
-use crate::programs::{kind, listed, owner, subject};
+pub use crate::settings::NAMES;
+
+/// The programs that were asked of which `some` is true, as the subject of a sentence, and whether its verb is a plural.
+pub fn subject(all: &[ProgramResult], some: impl Fn(&ProgramResult) -> bool) -> (String, bool) {
+    let names = names(all, some);
+    // `Isaac and Newton` are two.
+    let are_many = names.len() > 1 || names.iter().any(|name| name.contains(" and "));
+    (listed(&names), are_many)
+}
+
+/// What parts of links and joints have below their names: elements of URDF, and what readers name besides.
+const INSIDE: &str = "inertial visual collision origin geometry material color texture mass inertia com axis limit lower \
+    upper effort velocity acceleration deceleration jerk dynamics damping friction mimic calibration safety_controller \
+    safety parent child";
+
+fn is_inside(word: &str) -> bool {
+    INSIDE.split(' ').any(|known| known == word)
+}
+
+/// The kind of a part of a robot: `collision` of `link/arm/collision/0`, `link` of `link/arm/tip`, whose name has a slash,
+/// `transmission` of `transmission/wrist_3`; `?` for something that is no part.
+pub fn kind(part: &str) -> &str {
+    let words: Vec<&str> = part.split('/').collect();
+    match words[..] {
+        [.., "?"] => "?",
+        ["robot" | "", .., last] => last,
+        // A link may be called `limit`.
+        [kind, _] => kind,
+        [.., last] if is_inside(last) => last,
+        [.., of @ ("visual" | "collision"), _] => of,
+        [first, ..] => first,
+        [] => part,
+    }
+}
+
+/// The link, joint or material that a part is of: `arm` of `link/arm/visual/0`.
+pub fn owner(part: &str) -> &str {
+    let mut owner = part.split_once('/').map_or(part, |(_, owner)| owner);
+    while let Some((above, last)) = owner.rsplit_once('/') {
+        let is_shape = ["/visual", "/collision"].iter().any(|shape| above.ends_with(shape));
+        let is_index = is_shape && last.bytes().all(|byte| byte.is_ascii_digit());
+        if !is_index && !is_inside(last) {
+            break;
+        }
+        owner = above;
+    }
+    owner
+}
+
+/// The names of some of the programs, in their order: of a family once, where all of it is among them. Otherwise the
+/// versions of a family share its name: `Gazebo Harmonic` and `Jetty`.
+fn names(all: &[ProgramResult], some: impl Fn(&ProgramResult) -> bool) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    let mut last = "";
+    for program in all.iter().filter(|program| some(program)) {
+        let mut family = all.iter().filter(|other| other.family == program.family);
+        let name: &str = if family.all(&some) { &program.family } else { &program.name };
+        let version = name.strip_prefix(last).and_then(|rest| rest.strip_prefix(' '));
+        let name =
+            version.filter(|rest| !last.is_empty() && !rest.starts_with('(')).unwrap_or(name);
+        last = &program.family;
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// `A, B and C`.
+pub fn listed(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [only] => (*only).to_owned(),
+        [most @ .., last] => format!("{} and {last}", most.join(", ")),
+    }
+}
 
 /// What MuJoCo and three.js never have.
 const SHAPES: [&str; 2] = ["visual", "collision"];
@@ -18,7 +94,7 @@ const NAMED: usize = 3;
 /// What each program does with an examined URDF, as the report for people says it: those of the settings and the worst
 /// first, programs that do the same in one line.
 pub fn lines(examined: Examined) -> Vec<String> {
-    let urdd = fill::urdd(examined, Severity::Error);
+    let urdd = run::urdd(examined, Severity::Error);
     describe(&urdd).into_iter().map(|(_, line)| line).collect()
 }
 
@@ -223,4 +299,28 @@ fn losses(lost: &BTreeMap<String, Lost>, [others, cut]: [usize; 2]) -> Vec<Strin
     let otherwise = (others > 0).then(|| format!("{} read otherwise", counted(others, "value")));
     let more = (cut > 0).then(|| format!("and {cut} more"));
     without.into_iter().chain(otherwise).chain(more).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::kind;
+
+    #[test]
+    fn a_part_is_of_its_kind_whatever_its_name() {
+        for (part, expected) in [
+            ("link/arm/collision/0", "collision"),
+            ("link/arm/visual/0/material", "material"),
+            ("link/arm/tip", "link"),
+            ("link/limit", "link"),
+            ("joint/elbow/limit", "limit"),
+            ("joint/elbow/limit/velocity", "velocity"),
+            ("transmission/wrist_3", "transmission"),
+            ("transmission/arm/wrist_3", "transmission"),
+            ("robot/gazebo", "gazebo"),
+            ("robot/transmission/?", "?"),
+            ("robot", "robot"),
+        ] {
+            assert_eq!(kind(part), expected, "{part}");
+        }
+    }
 }

@@ -10,11 +10,10 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::human::macro_of;
-use super::place::{file_in, is_inside};
-use super::words;
+use super::style::unverified;
 use crate::code::Code;
 use crate::description::Description;
-use crate::run::Run;
+use crate::run::{Run, file_in, is_inside};
 use urdd_format::escape;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::readable::number;
@@ -38,7 +37,7 @@ const KEPT: &AsciiSet =
 /// Never for the report of a [`Run`].
 pub fn sarif(run: &Run, places: &[String], exit_code: u8) -> serde_json::Result<String> {
     let report = &run.report;
-    let rules = Rules::used(run);
+    let rules = used(run);
     let placed = || report.urdds.iter().zip(places);
     let results: Vec<Value> =
         placed().flat_map(|(urdd, place)| results(urdd, place, &rules)).collect();
@@ -59,7 +58,7 @@ pub fn sarif(run: &Run, places: &[String], exit_code: u8) -> serde_json::Result<
     // Geometry or rates that were not verified do not make the run a failure.
     let failed = !notifications.is_empty();
     let unverified = placed().flat_map(|(urdd, place)| {
-        words::unverified(urdd).into_iter().map(move |text| {
+        unverified(urdd).into_iter().map(move |text| {
             json!({"level": "note", "message": message(&text), "locations": [folder(place)]})
         })
     });
@@ -73,7 +72,7 @@ pub fn sarif(run: &Run, places: &[String], exit_code: u8) -> serde_json::Result<
     if !homepage.is_empty() {
         driver["informationUri"] = json!(homepage);
     }
-    driver["rules"] = rules.describe();
+    driver["rules"] = rules.values().map(|rule| describe(rule)).collect();
     let log = json!({
         "$schema": "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json",
         "version": "2.1.0",
@@ -97,24 +96,18 @@ pub fn sarif(run: &Run, places: &[String], exit_code: u8) -> serde_json::Result<
 }
 
 /// The rules that the report names, in order of code.
-struct Rules(BTreeMap<Code, &'static Description>);
+type Rules = BTreeMap<Code, &'static Description>;
 
-impl Rules {
-    fn used(run: &Run) -> Rules {
-        let checks = run.report.urdds.iter().flat_map(|urdd| &urdd.checks);
-        let used = checks
-            .filter(|check| matches!(check.status, Status::Failed | Status::Crashed))
-            .filter_map(|check| run.rule(&check.code));
-        Rules(used.map(|rule| (rule.code, rule)).collect())
-    }
+fn used(run: &Run) -> Rules {
+    let checks = run.report.urdds.iter().flat_map(|urdd| &urdd.checks);
+    let used = checks
+        .filter(|check| matches!(check.status, Status::Failed | Status::Crashed))
+        .filter_map(|check| run.rule(&check.code));
+    used.map(|rule| (rule.code, rule)).collect()
+}
 
-    fn index(&self, code: &str) -> Option<usize> {
-        self.0.keys().position(|known| known.as_str() == code)
-    }
-
-    fn describe(&self) -> Value {
-        self.0.values().map(|rule| describe(rule)).collect()
-    }
+fn index(rules: &Rules, code: &str) -> Option<usize> {
+    rules.keys().position(|known| known.as_str() == code)
 }
 
 fn describe(rule: &Description) -> Value {
@@ -153,7 +146,7 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
     let result = |finding: &Finding| {
         let mut result = json!({
             "ruleId": finding.code,
-            "ruleIndex": rules.index(&finding.code),
+            "ruleIndex": index(rules, &finding.code),
             "level": level(finding.severity),
             "message": message(&text(finding, &urdd.xacro_arguments)),
             "locations": finding.places.iter().take(1).map(|first| location(place, first)).collect::<Vec<_>>(),
@@ -295,7 +288,6 @@ fn location(urdd: &str, place: &Place) -> Value {
     location
 }
 
-/// The location of a URDD.
 fn folder(urdd: &str) -> Value {
     location(urdd, &Place::default())
 }
@@ -328,7 +320,7 @@ fn notifications(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
             "level": "error",
             "message": message(&text),
             "locations": locations,
-            "associatedRule": {"id": check.code, "index": rules.index(&check.code)},
+            "associatedRule": {"id": check.code, "index": index(rules, &check.code)},
         }));
     }
     notifications

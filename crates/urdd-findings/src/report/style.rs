@@ -1,8 +1,11 @@
-//! Appearance of reports for people.
+//! Appearance and wording that several renderers share.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-use urdd_format::report::Severity;
+use urdd_format::escape::line as safe;
+use urdd_format::readable::{counted, first_of};
+use urdd_format::report::{Kind, LinkNotVerified, Report, Severity, Urdd};
 
 /// Appearance of the report for people.
 #[derive(Debug, Clone, Copy)]
@@ -59,4 +62,65 @@ pub(super) fn severity(severity: Severity, style: Style) -> String {
         Severity::Info => BLUE,
     };
     style.paint(color, severity.as_str())
+}
+
+/// A list of codes; if there are many, their number and families.
+pub(super) fn list(codes: &[String]) -> String {
+    const MOST: usize = 8;
+    if codes.len() <= MOST {
+        return codes.join(" ");
+    }
+    let mut families: Vec<&str> = codes.iter().map(|code| &code[..code.len().min(3)]).collect();
+    families.sort_unstable();
+    families.dedup();
+    format!("{} ({})", counted(codes.len(), "rule"), families.join(", "))
+}
+
+/// What a report is about.
+pub(super) fn unit(report: &Report) -> &'static str {
+    let is_urdf = |urdd: &Urdd| urdd.kind == Kind::Urdf;
+    if !report.urdds.is_empty() && report.urdds.iter().all(is_urdf) { "URDF" } else { "URDD" }
+}
+
+/// Maximum number of links listed per reason.
+const LINKS: usize = 8;
+
+/// States how many links were not verified.
+pub(super) fn not_verified(links: usize) -> String {
+    format!("the geometry of {} was not verified", counted(links, "link"))
+}
+
+/// States that a self-collision model was not verified.
+pub(super) const MODEL_NOT_VERIFIED: &str =
+    "the rates of the self-collision model were not verified";
+
+/// One line for the links that were not verified, and one for the self-collision model.
+pub(super) fn unverified(urdd: &Urdd) -> Vec<String> {
+    let model = urdd.model_not_verified.as_ref().map(|model| {
+        let reasons = model.reasons.join(", ");
+        format!("{MODEL_NOT_VERIFIED} (by {}: {})", list(&model.codes), safe(&reasons))
+    });
+    describe_links(urdd).into_iter().chain(model).collect()
+}
+
+/// The number of links that were not verified, and their indices by reason; `None` if all were verified.
+fn describe_links(urdd: &Urdd) -> Option<String> {
+    let links = &urdd.geometry_not_verified;
+    if links.is_empty() {
+        return None;
+    }
+    let mut by_reasons: BTreeMap<&[String], Vec<&LinkNotVerified>> = BTreeMap::new();
+    for link in links {
+        by_reasons.entry(&link.reasons).or_default().push(link);
+    }
+    let described = by_reasons.into_iter().map(|(reasons, links)| {
+        let text = first_of(links.iter().map(|link| link.link), LINKS);
+        let codes: BTreeSet<String> = links.iter().flat_map(|link| link.codes.clone()).collect();
+        let codes = Vec::from_iter(codes);
+        let word = if links.len() == 1 { "link" } else { "links" };
+        let reasons = reasons.join(", ");
+        format!("{word} {text} by {}: {}", list(&codes), safe(&reasons))
+    });
+    let described: Vec<String> = described.collect();
+    Some(format!("{} ({})", not_verified(links.len()), described.join("; ")))
 }

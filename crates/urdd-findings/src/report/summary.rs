@@ -5,14 +5,15 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
-use super::causes::{Cause, causes};
 use super::programs;
-use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
-use super::words::{MODEL_NOT_VERIFIED, not_verified, unit};
+use super::style::{
+    BOLD, DIM, GREEN, MODEL_NOT_VERIFIED, RED, Style, YELLOW, not_verified, severity, unit,
+};
 use crate::code::Code;
+use crate::run::file_in;
 use urdd_format::escape::line as safe;
 use urdd_format::readable::counted;
-use urdd_format::report::{Consequence, Report, Severity, Status, Urdd, Verdict};
+use urdd_format::report::{Consequence, Finding, Place, Report, Severity, Status, Urdd, Verdict};
 
 /// The column of a family of rules in the table. Most families have their own.
 pub fn column(family: &str) -> &str {
@@ -40,7 +41,6 @@ const LESSER: usize = 5;
 const NAME: usize = 28;
 const ROW: usize = 80;
 
-/// Writes the table and the causes.
 pub(super) fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
     write_table(report, style, out)?;
     let all = causes(report);
@@ -116,7 +116,6 @@ fn write_more(of: usize, shown: usize, style: Style, out: &mut impl Write) -> fm
     writeln!(out, "    {}", style.paint(DIM, text))
 }
 
-/// A consequence in words.
 fn words(consequence: Consequence) -> &'static str {
     match consequence {
         Consequence::WrongMotion => "wrong motion",
@@ -150,7 +149,6 @@ fn write_cause(cause: &Cause<'_>, unit: &str, style: Style, out: &mut impl Write
     writeln!(out, "{}", style.paint(DIM, shorten(&example, style.width)))
 }
 
-/// The kind of subjects of a cause, in the plural.
 fn kinds(cause: &Cause<'_>) -> &'static str {
     let subject = cause.first.subject.as_deref().unwrap_or_default();
     if subject.contains(", ") {
@@ -312,4 +310,84 @@ fn short(number: usize) -> String {
         1_000..1_000_000 => format!("{}k", number / 1_000),
         _ => format!("{}M", number / 1_000_000),
     }
+}
+
+/// A cause of findings.
+pub struct Cause<'a> {
+    /// Its first finding.
+    pub first: &'a Finding,
+    /// Number of occurrences. A place that several URDDs name, such as a file of a part that they share, counts once.
+    pub times: usize,
+    /// Number of links, joints or pairs of links with an occurrence; 0 if unknown.
+    pub subjects: usize,
+    /// Paths of the URDDs with an occurrence.
+    pub urdds: Vec<&'a str>,
+    /// Number of these URDDs whose occurrences are all in files of other URDDs.
+    pub borrowed: usize,
+}
+
+/// The causes of all findings: by severity, then by consequence, then by number of URDDs, each in descending order.
+/// Findings of one rule and one severity have one cause, regardless of module, link and URDD.
+pub fn causes<'a>(report: &'a Report) -> Vec<Cause<'a>> {
+    let roots: BTreeSet<&str> = report.urdds.iter().map(|urdd| urdd.path.as_str()).collect();
+    let mut all: BTreeMap<(&str, Severity), Vec<(usize, &Finding)>> = BTreeMap::new();
+    for (number, urdd) in report.urdds.iter().enumerate() {
+        for finding in &urdd.findings {
+            let key = (finding.code.as_str(), finding.severity);
+            all.entry(key).or_default().push((number, finding));
+        }
+    }
+    let cause = |found: Vec<(usize, &'a Finding)>| {
+        let (mut places, mut subjects, mut cut) = (BTreeSet::new(), BTreeSet::new(), 0);
+        // The URDDs, and whether an occurrence is in a file of its own.
+        let mut urdds: BTreeMap<usize, bool> = BTreeMap::new();
+        for (number, finding) in &found {
+            let root = &report.urdds[*number].path;
+            cut += finding.places_cut.get();
+            let mut own = finding.places_cut.get() > 0;
+            for place in &finding.places {
+                let file = file_in(root, place.file.as_deref());
+                own |= place.file.is_none() || within(&file, root) || !inside(&file, &roots);
+                places.insert((file, place.pointer.as_deref()));
+                subjects.insert((*number, subject(place)));
+            }
+            *urdds.entry(*number).or_default() |= own;
+        }
+        let are_known = subjects.iter().all(|(_, subject)| subject.is_some());
+        Cause {
+            first: found[0].1,
+            times: places.len() + cut,
+            subjects: if are_known { subjects.len() } else { 0 },
+            borrowed: urdds.values().filter(|own| !**own).count(),
+            urdds: urdds.keys().map(|number| report.urdds[*number].path.as_str()).collect(),
+        }
+    };
+    let mut causes: Vec<Cause> = all.into_values().map(cause).collect();
+    causes.sort_by_key(|cause| {
+        let Finding { severity, consequence, .. } = cause.first;
+        Reverse((*severity, *consequence, cause.urdds.len(), cause.times))
+    });
+    causes
+}
+
+/// The links or joints of a place, without piece numbers, in alphabetical order, so that the order within a pair does
+/// not matter.
+pub fn subject(place: &Place) -> Option<String> {
+    let subject = place.subject.as_deref()?;
+    let part = |part: &str| match part.find("` piece ") {
+        Some(end) => part[..=end].to_owned(),
+        None => part.to_owned(),
+    };
+    let mut parts: Vec<String> = subject.split(", ").map(part).collect();
+    parts.sort();
+    Some(parts.join(", "))
+}
+
+fn within(file: &str, root: &str) -> bool {
+    file.strip_prefix(root).is_some_and(|rest| rest.starts_with('/'))
+}
+
+fn inside(file: &str, roots: &BTreeSet<&str>) -> bool {
+    let parents = file.match_indices('/').map(|(end, _)| &file[..end]);
+    parents.into_iter().any(|folder| roots.contains(folder))
 }

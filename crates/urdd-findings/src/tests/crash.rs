@@ -1,6 +1,6 @@
 //! A crash outside of any rule.
 
-use crate::examined::Examined;
+use crate::check::Examined;
 use urdd_format::report::{Kind, Verdict};
 
 #[test]

@@ -2,9 +2,9 @@
 
 use super::DESCRIPTION;
 use crate::check::{Check, Outcome};
-use crate::examined::{Examined, blank};
+use crate::check::{Examined, blank};
 use crate::finding::Finding;
-use crate::report::causes::*;
+use crate::report::summary::*;
 use crate::run::Run;
 use crate::settings::Settings;
 use urdd_format::report::{Kind, Place, Severity};

@@ -1,7 +1,7 @@
 //! `[[robot]]` of a settings file.
 
-use crate::robots::DeclaredRobot;
 use crate::settings::Settings;
+use crate::settings_file::DeclaredRobot;
 use crate::settings_file::SettingsFile;
 
 fn read(text: &str) -> Result<Vec<DeclaredRobot>, String> {

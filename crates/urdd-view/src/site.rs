@@ -1,5 +1,11 @@
-//! The list of a site's files, `urdd-site.json`, which tells a later export which files to replace. Anything else that
-//! the user put into the folder remains. And why a site was not written.
+//! Exports the page and robots as a static site for any web server.
+//!
+//! A site is `index.html`, a list of its files, and a folder of files named by the SHA-256 of their content. File names
+//! of a URDD do not become file names of the site. So no name is too long for a file system or collides with another,
+//! and no extension makes a server declare a page or a program. Browsers do not execute `.bin` files.
+//!
+//! The list, `urdd-site.json`, tells a later export which files to replace. Anything else that the user put into the
+//! folder remains.
 #![expect(
     clippy::disallowed_methods,
     reason = "its files are named by their content, and it moves what a site lists alone"
@@ -11,20 +17,29 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
 use thiserror::Error;
 
-use urdd_directory::root::ReadError;
-use urdd_directory::staging::StagingError;
+use crate::assets::{ASSETS, page_of};
+use crate::collection::Collection;
+use crate::route::{Published, picture_of, published};
+use crate::shown::Shown;
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::limits::MAX_FILE_BYTES;
+use urdd_directory::root::{EntryKind, ReadError};
+use urdd_directory::staging::{Staging, StagingError};
+use urdd_directory::writer::Writer;
 use urdd_directory::{digest, regular};
+use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::readable::first_of;
 use urdd_format::registry::PROGRAM_VERSION;
 
 /// The list itself. Its presence identifies a site.
-pub const LIST: &str = "urdd-site.json";
+const LIST: &str = "urdd-site.json";
 /// The folder of all files except the page and the list.
-pub const FOLDER: &str = "urdd-site";
+const FOLDER: &str = "urdd-site";
 /// The page. It references the other files, so replacing it replaces the site.
-pub const PAGE: &str = "index.html";
+const PAGE: &str = "index.html";
 
 const MADE_BY: &str = "urdd view --export";
 const MAX_LIST_BYTES: u64 = 64 << 20;
@@ -76,12 +91,12 @@ fn shown(paths: &[PathBuf]) -> String {
 
 /// Files by path relative to the site, each with the SHA-256 hashes of its possible contents.
 #[derive(Debug, Clone, Default)]
-pub struct SiteList(BTreeMap<String, BTreeSet<String>>);
+struct SiteList(BTreeMap<String, BTreeSet<String>>);
 
 impl SiteList {
     /// Reads the list of the site in a folder; an empty list if the folder is empty.
     /// Fails if the folder contains something else, or a site without a list.
-    pub fn read(folder: &Path) -> Result<Self, ExportError> {
+    fn read(folder: &Path) -> Result<Self, ExportError> {
         let mut entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Self::default()),
@@ -116,8 +131,7 @@ impl SiteList {
         Ok(list)
     }
 
-    /// Adds a file.
-    pub fn add(&mut self, path: &str, sha256: &str) {
+    fn add(&mut self, path: &str, sha256: &str) {
         let hashes = self.0.entry(path.to_owned()).or_default();
         hashes.insert(sha256.to_owned());
     }
@@ -126,7 +140,6 @@ impl SiteList {
         self.0.get(path).is_some_and(|hashes| hashes.contains(sha256))
     }
 
-    /// Combines this list with another one.
     fn with(&self, other: &Self) -> Self {
         let mut both = self.clone();
         for (path, hashes) in &other.0 {
@@ -145,7 +158,7 @@ impl SiteList {
 
     /// Refuses to overwrite the user's files: a file at one of these paths that is not from an export, or a file of
     /// `before` that the user changed.
-    pub fn check_places(&self, folder: &Path, before: &Self) -> Result<(), ExportError> {
+    fn check_places(&self, folder: &Path, before: &Self) -> Result<(), ExportError> {
         let below = folder.join(FOLDER);
         let mut files = Vec::new();
         if fs::symlink_metadata(&below).is_ok_and(|metadata| !metadata.is_dir()) {
@@ -170,7 +183,7 @@ impl SiteList {
     ///
     /// Every file except the page is named by its content. So the site is the old one until the page is replaced, which
     /// is atomic, and the new one from then on, even if this is interrupted.
-    pub fn put(
+    fn put(
         &self,
         content: &Path,
         folder: &Path,
@@ -210,7 +223,6 @@ impl SiteList {
     }
 }
 
-/// Whether an export writes this path.
 fn is_of_site(path: &str) -> bool {
     let plain = |c: char| c.is_ascii_digit() || c.is_ascii_lowercase();
     let is_name = |name: &str| {
@@ -236,6 +248,108 @@ fn hash_of(path: &Path) -> io::Result<String> {
 fn unwritten(path: &Path, error: io::Error) -> ExportError {
     let path = path.to_owned();
     StagingError::Write { path, error }.into()
+}
+
+/// Writes the site into a folder: a new one, an empty one, or one with a site. In an existing site, it replaces the
+/// files that the last export listed, and keeps all others. `opens` is the view that the page shows first, as in its
+/// address (`r=after&v=before`). Calls `tell` after each robot. Returns the files of the last export that the user
+/// changed, which it keeps too.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn export(
+    collection: &Collection,
+    folder: &Path,
+    opens: Option<&str>,
+    cancellation: &Cancellation,
+    tell: &mut dyn FnMut(&Shown),
+) -> Result<Vec<PathBuf>, ExportError> {
+    // An early check, for the message. Repeated below, when no other run can write there.
+    SiteList::read(folder)?;
+    let staging = Staging::begin_inside(folder, cancellation)?;
+    let before = SiteList::read(staging.target())?;
+    let mut site = Site { writer: Writer::new(staging.content()), list: SiteList::default() };
+    let mut names = Vec::new();
+    let mut page = String::new();
+    for asset in ASSETS {
+        let bytes = asset.bytes().map_err(ExportError::Page)?;
+        match asset.name {
+            PAGE => page = String::from_utf8_lossy(&bytes).into_owned(),
+            name => {
+                let ending = name.rsplit('.').next().unwrap_or_default();
+                names.push((name, site.add(&bytes, ending)?));
+            }
+        }
+    }
+    let mut entries = Vec::new();
+    for robot in collection.robots() {
+        if cancellation.is_cancelled() {
+            return Err(StagingError::Cancelled.into());
+        }
+        entries.push(one(&robot, &mut site)?);
+        tell(&robot);
+    }
+    let robots = Value::from(entries).to_string();
+    names.push(("robots.json", site.add(robots.as_bytes(), "json")?));
+    site.page(&page_of(&page, &names, opens))?;
+    let Site { list, .. } = site;
+    list.check_places(staging.target(), &before)?;
+    list.put(staging.content(), staging.target(), &before)
+}
+
+struct Site {
+    writer: Writer,
+    list: SiteList,
+}
+
+impl Site {
+    /// Writes a file, and returns its path in the site.
+    fn add(&mut self, bytes: &[u8], ending: &str) -> Result<String, ExportError> {
+        let hash = hexadecimal(&Sha256::digest(bytes));
+        let path = format!("{FOLDER}/{hash}.{ending}");
+        self.writer.file(&path, bytes)?;
+        self.list.add(&path, &hash);
+        Ok(path)
+    }
+
+    fn page(&mut self, text: &str) -> Result<(), ExportError> {
+        self.writer.file(PAGE, text.as_bytes())?;
+        self.list.add(PAGE, &hexadecimal(&Sha256::digest(text)));
+        Ok(())
+    }
+}
+
+pub(super) fn unread(robot: &Shown, error: ReadError) -> ExportError {
+    ExportError::Robot(robot.name.clone(), error)
+}
+
+/// Writes a robot: its files, their list, and its report.
+fn one(robot: &Shown, site: &mut Site) -> Result<Value, ExportError> {
+    let Published { root, report, mut entry } =
+        published(robot).map_err(|error| unread(robot, error))?;
+    let mut files = Vec::new();
+    let listing = root.list().map_err(|error| unread(robot, error))?;
+    for file in listing.entries {
+        if file.kind != EntryKind::File {
+            continue;
+        }
+        // A path that is invalid in a URDD appears in the report, but not on the site.
+        match root.read(&file.path, MAX_FILE_BYTES) {
+            Ok(bytes) => {
+                let at = site.add(&bytes, "bin")?;
+                files.push(json!({ "path": file.path, "size": bytes.len(), "at": at }));
+            }
+            Err(ReadError::Path(_)) => {}
+            Err(error) => return Err(unread(robot, error)),
+        }
+    }
+    let files = json!({ "name": root.folder_name(), "files": files });
+    entry["files"] = json!(site.add(files.to_string().as_bytes(), "json")?);
+    entry["report"] = json!(site.add(report.as_bytes(), "json")?);
+    if let Some(picture) = picture_of(robot) {
+        entry["picture"] = json!(site.add(&picture, "png")?);
+    }
+    Ok(entry)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Compares the findings of `urdd validate` with those that a case expects.
 
-use crate::case::{Case, Expected, Verdict};
+use urdd_conformance::suite::{Case, Expected, Verdict};
 use urdd_format::report::{self, Finding, Report, Severity};
 
 /// The findings that a case of the rule `code` lists: all except infos of other rules.

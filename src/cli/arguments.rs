@@ -1,17 +1,23 @@
-//! The arguments that say how a description is read: where its mesh files are, how xacro files are expanded, and which
-//! robots a settings file declares of them.
+//! Arguments that several commands share: how a description is read, and terms of the format as values.
 
+use std::error::Error;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 use std::time::Duration;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::output::{Failure, one_line, shown};
-use super::reporting::settings_file;
+use urdd_export::Word;
+use urdd_format::meshes::GeometryKind;
+use urdd_format::report::Severity;
+use urdd_format::root_metadata::ConformanceClass;
 use urdd_lint::declared;
-use urdd_source::ImportOptions;
-use urdd_source::{Declared, Packages, Settings, XACRO_TIMEOUT, XacroSettings, declared_of};
-use urdd_validate::settings_file::SETTINGS_FILE;
+use urdd_source::{
+    Declared, ImportOptions, Packages, Settings, XACRO_TIMEOUT, XacroSettings, declared_of,
+};
+use urdd_validate::settings_file::{SETTINGS_FILE, SettingsFile};
 
 /// Where the mesh files of a URDF are.
 #[derive(Args)]
@@ -151,6 +157,13 @@ pub(super) fn only_arguments(words: &[PathBuf]) -> Result<Vec<String>, Failure> 
     }
 }
 
+/// The settings file that is named, else that of the current folder, if there is one.
+pub(super) fn settings_file(named: Option<&Path>) -> Result<SettingsFile, Failure> {
+    let default = Path::new(SETTINGS_FILE);
+    let file = named.or_else(|| default.is_file().then_some(default));
+    Ok(file.map(SettingsFile::read).transpose()?.unwrap_or_default())
+}
+
 /// Where robots are declared.
 #[derive(Args)]
 pub(super) struct RobotArguments {
@@ -184,4 +197,70 @@ impl RobotArguments {
             }
         }
     }
+}
+
+/// Declares values with the names of a type's, and what they say in `--help`.
+macro_rules! words {
+    ($($(#[$about:meta])* $word:ident for $term:ident { $($(#[$help:meta])* $variant:ident,)+ })+) => {$(
+        $(#[$about])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+        pub enum $word {
+            $($(#[$help])* $variant,)+
+        }
+
+        impl From<$word> for $term {
+            fn from(word: $word) -> Self {
+                match word {
+                    $($word::$variant => $term::$variant,)+
+                }
+            }
+        }
+    )+};
+}
+
+words! {
+    /// A conformance class.
+    Class for ConformanceClass {
+        /// The robot and its kinematics.
+        Core,
+        /// Core, and meshes.
+        Geometry,
+        /// Geometry, and boxes, spheres, distances and skips.
+        Shapes,
+    }
+
+    /// A severity.
+    Level for Severity {
+        /// What programs refuse or get wrong, or what a URDD must not have.
+        Error,
+        /// What is wrong or risky for some programs, or what a URDD should not have.
+        Warning,
+        /// An outdated convention, or something worth knowing.
+        Info,
+    }
+
+    /// The elements that geometry is taken from.
+    Preferred for GeometryKind {
+        /// The visual elements.
+        Visual,
+        /// The collision elements.
+        Collision,
+    }
+}
+
+/// Takes one of these words of the library, as what it stands for.
+pub fn value_of<T>(words: &[Word]) -> impl TypedValueParser<Value = T>
+where
+    T: FromStr<Err: Error + Send + Sync> + Clone + Send + Sync + 'static,
+{
+    parser(words).try_map(|word| word.parse::<T>())
+}
+
+/// Takes one of these words of the library.
+pub fn parser(words: &[Word]) -> PossibleValuesParser {
+    let value = |(word, about): &Word| match about.trim().trim_end_matches('.') {
+        "" => PossibleValue::new(*word),
+        about => PossibleValue::new(*word).help(about),
+    };
+    words.iter().map(value).collect::<Vec<_>>().into()
 }

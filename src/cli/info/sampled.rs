@@ -1,4 +1,4 @@
-//! What each DOF must give to hold the robot still, and how much of its effort limit that is.
+//! What `urdd info` computes in sampled configurations: what holds the robot still, and which links touch unseen.
 
 use std::fmt::{self, Write};
 use std::path::Path;
@@ -10,10 +10,10 @@ use crate::cli::inputs;
 use crate::cli::output::Failure;
 use urdd_format::escape;
 use urdd_format::readable::number;
-use urdd_robot::{GravitySettings, Payload};
+use urdd_robot::{GravitySettings, Payload, Robot, RobotError, ShapeKind};
 
 /// As the statistics of a URDD that `urdd generate` makes.
-pub(super) const SAMPLES: u32 = 1000;
+const SAMPLES: u32 = 1000;
 /// A URDD may state any number.
 const MAX_SAMPLES: u32 = 100_000;
 
@@ -33,18 +33,15 @@ pub struct StaticsArguments {
     at: Option<String>,
 }
 
-/// What holds a robot still against gravity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Statics {
     /// m/s², in the root link's frame.
     pub gravity: [f64; 3],
-    /// What a link carries.
     pub payload: Option<PayloadInfo>,
     /// The mass of all links, kg.
     pub mass: f64,
     /// The centre of mass of all links in the default configuration, m.
     pub centre_of_mass: Option<[f64; 3]>,
-    /// Number of sampled configurations.
     pub num_samples: u32,
     pub dofs: Vec<DofStatics>,
 }
@@ -83,13 +80,13 @@ impl Statics {
             return Ok(None);
         }
         let robot = inputs::open(path)?;
-        let payload = match (asked.payload, &asked.at) {
-            (Some(mass), Some(name)) => {
-                Some(Payload { link: robot.link(name)?, mass, point: [0.0; 3] })
-            }
-            _ => None,
-        };
-        let settings = GravitySettings { payload, ..GravitySettings::default() };
+        let payload = asked.at.clone().zip(asked.payload);
+        let payload = payload.map(|(link, mass)| PayloadInfo { link, mass });
+        let mut settings = GravitySettings::default();
+        if let Some(PayloadInfo { link, mass }) = &payload {
+            settings.payload =
+                Some(Payload { link: robot.link(link)?, mass: *mass, point: [0.0; 3] });
+        }
         let space = robot.configurations()?;
         let default = space.zero();
         let at_default = robot.gravity_torques(&default, &settings)?;
@@ -121,11 +118,7 @@ impl Statics {
         });
         Ok(Some(Statics {
             gravity: settings.gravity,
-            payload: asked
-                .at
-                .clone()
-                .zip(asked.payload)
-                .map(|(link, mass)| PayloadInfo { link, mass }),
+            payload,
             mass: robot.link_masses()?.iter().map(|link| link.mass).sum(),
             centre_of_mass: robot.centre_of_mass(&default)?,
             num_samples,
@@ -133,7 +126,6 @@ impl Statics {
         }))
     }
 
-    /// Writes the table for people.
     pub fn write(&self, out: &mut impl Write) -> fmt::Result {
         const MARGIN: &str = "            ";
         let payload = self.payload.as_ref().map(|PayloadInfo { link, mass }| {
@@ -182,4 +174,66 @@ fn short(value: f64) -> String {
 
 fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
+}
+
+/// Maximum number of pairs in text for people.
+const MOST_SHOWN: usize = 10;
+
+/// Two links that are skipped because they touch in the default configuration, or in the reference configuration.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SkippedContact {
+    pub links: [String; 2],
+    /// Number of the sampled configurations in which they touch.
+    pub touching: usize,
+    pub num_samples: u32,
+}
+
+impl SkippedContact {
+    /// Those of the URDD at `path`, most contacts first. Null if the modules for it are missing or cannot be read.
+    pub fn all(path: &Path) -> Option<Vec<SkippedContact>> {
+        Self::of(&Robot::open(path).ok()?).ok()
+    }
+
+    fn of(robot: &Robot) -> Result<Vec<SkippedContact>, RobotError> {
+        let Some(hidden) = robot.skipped_contacts(ShapeKind::Pieces)? else {
+            return Ok(Vec::new());
+        };
+        let space = robot.configurations()?;
+        let num_samples = robot.num_samples()?.unwrap_or(SAMPLES).min(SAMPLES);
+        let values: Vec<f64> = (0..num_samples).flat_map(|k| space.random(u64::from(k))).collect();
+        let name = |link: usize| hidden.body_name(link).unwrap_or_default().to_owned();
+        let found = hidden.contacts_of_links(&values, |link| link)?.into_iter();
+        // Links that touch in all samples are as those that always do.
+        let found = found.filter(|(_, touching)| *touching < num_samples as usize);
+        let mut found: Vec<SkippedContact> = found
+            .map(|(links, touching)| SkippedContact {
+                links: links.map(name),
+                touching,
+                num_samples,
+            })
+            .collect();
+        found.sort_by_key(|one| std::cmp::Reverse(one.touching));
+        Ok(found)
+    }
+}
+
+pub fn write_skipped(found: &[SkippedContact], out: &mut impl Write) -> fmt::Result {
+    let Some(SkippedContact { num_samples, .. }) = found.first() else {
+        return Ok(());
+    };
+    let (pairs, touch) = if found.len() == 1 { ("pair", "touches") } else { ("pairs", "touch") };
+    writeln!(
+        out,
+        "  skipped   {} {pairs} of links that {touch} at rest; other collisions count as free: of {num_samples} samples, in",
+        found.len()
+    )?;
+    for SkippedContact { links: [a, b], touching, .. } in found.iter().take(MOST_SHOWN) {
+        let share = 100.0 * *touching as f64 / f64::from(*num_samples);
+        let [a, b] = [a, b].map(|name| escape::line(name));
+        writeln!(out, "    {touching:>7} ({share:.1} %)  {a} - {b}")?;
+    }
+    match found.len().saturating_sub(MOST_SHOWN) {
+        0 => Ok(()),
+        more => writeln!(out, "            and {more} more"),
+    }
 }
