@@ -2,13 +2,13 @@
 
 import { Box3, Color, Vector3 } from "three";
 import type { App } from "./app";
-import { message } from "./app";
 import { CHANGE_COLORS } from "./compared";
 import type { Compared } from "./compared";
 import { load } from "./scene/layers";
 import { RobotScene } from "./scene/robot";
 import type { View } from "./scene/view";
 import { LAYERS } from "./state";
+import { message } from "./ui/format";
 import { color } from "./ui/theme";
 
 /** Space between the robots, of the larger one's size. */

@@ -1,15 +1,13 @@
 /** Opens the robot that the present one is compared with, and moves it along. */
 
 import type { App } from "./app";
-import { message } from "./app";
 import { changesOf, sameValues } from "./compared";
 import type { Compared, Shapes } from "./compared";
-import type { Engine } from "./engine/client";
-import type { LinkMesh } from "./engine/calls";
+import type { Engine, LinkMesh } from "./engine/client";
 import { Latest } from "./latest";
 import { RobotModel } from "./model";
 import type { Entry } from "./model";
-import { name } from "./ui/format";
+import { message, name } from "./ui/format";
 
 /** Pause between polls, ms. */
 const PERIOD = 300;

@@ -1,10 +1,8 @@
 /** An open robot: the engine's data, and what the page derives from it. */
 
+import type { NamedConfiguration, RobotPart, SphereLevel } from "./document";
+import type { RobotSource } from "./engine/client";
 import type { About, Dof, FileEntry, Joint, Link } from "./engine/protocol";
-import type { RobotSource } from "./engine/calls";
-import type { NamedConfiguration } from "./configurations";
-import type { RobotPart } from "./parts";
-import type { SphereLevel } from "./spheres";
 
 /** An entry of `robots.json`. */
 export interface Entry {

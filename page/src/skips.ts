@@ -2,11 +2,10 @@
 
 import { strToU8, zipSync } from "fflate";
 import type { App } from "./app";
-import { message } from "./app";
-import { partial } from "./state";
-import { count } from "./ui/format";
-import { offer } from "./ui/offer";
 import type { PairDistance, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
+import { partial } from "./state";
+import { offer } from "./ui/files";
+import { message, count } from "./ui/format";
 
 /** More pairs than any robot has. */
 const ALL = 1e9;

@@ -1,17 +1,21 @@
 /** A worker that makes robots of descriptions. It reads the files that it was given, and nothing else. */
 
-import { hasPlace } from "../endings";
-import { changes, contents, started } from "../engine/module";
-import type { Urdd } from "../engine/module";
+import { zipSync } from "fflate";
+import type { Zippable } from "fflate";
+import { hasPlace } from "../drop";
+import type { Given } from "../drop";
+import { changes, contents, started, serve } from "../engine/link";
+import type { Urdd, OnProgress } from "../engine/link";
 import type { Report } from "../engine/protocol";
-import { serve } from "../engine/serve";
-import type { OnProgress } from "../engine/serve";
-import { packed } from "./pack";
-import type { Description, Exported, Given, Imported, Made, MakerCalls } from "./protocol";
-import { bytes } from "../ui/format";
+import { bytes, message } from "../ui/format";
+import type { Description, Exported, Imported, Made, MakerCalls } from "./made";
 
 /** Maximum size of what is read for one robot: it is in memory more than once while it is made. */
 const MAX_ROBOT = 512 * 2 ** 20;
+/** The time of files in a .zip, which cannot say an earlier one. */
+const TIME = "1980-01-02T00:00:00";
+/** How much a .zip is compressed, of 0 to 9: meshes gain little from more. */
+const LEVEL = 3;
 
 /** As the libraries of TypeScript for pages do not have it. */
 declare class FileReaderSync {
@@ -53,7 +57,7 @@ function content(path: string): Uint8Array {
   try {
     return new Uint8Array(new FileReaderSync().readAsArrayBuffer(file));
   } catch (error) {
-    throw new RangeError(`${path} cannot be read: ${error instanceof Error ? error.message : String(error)}`);
+    throw new RangeError(`${path} cannot be read: ${message(error)}`);
   }
 }
 
@@ -138,3 +142,10 @@ serve<MakerCalls>(
   },
   ["init", "take", "put"],
 );
+
+/** A .zip of files: the same bytes for the same files. */
+async function packed(files: Given[]): Promise<Blob> {
+  const all: Zippable = {};
+  for (const { path, file } of files) all[path] = [new Uint8Array(await file.arrayBuffer()), { mtime: TIME }];
+  return new Blob([zipSync(all, { level: LEVEL }).slice()], { type: "application/zip" });
+}

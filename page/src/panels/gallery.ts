@@ -1,11 +1,10 @@
 /** All robots of the site, with pictures and search, and a place to drop a folder or a zip. */
 
 import type { App } from "../app";
-import { message } from "../app";
 import type { Entry } from "../model";
 import { button, fill, h } from "../ui/dom";
-import { count, name } from "../ui/format";
-import { picker } from "../ui/picker";
+import { picker } from "../ui/files";
+import { message, count, name } from "../ui/format";
 
 /** Number of parallel requests. */
 const AT_ONCE = 2;

@@ -20,10 +20,10 @@ export function reasonClass(letter: string): string {
 }
 
 /** Side of the matrix, CSS pixels. */
-export const SIDE = 340;
+const SIDE = 340;
 
 /** The shapes of the rows and columns: all, or those of two links. */
-export interface Region {
+interface Region {
   rows: number[];
   columns: number[];
 }

@@ -1,18 +1,19 @@
 /** The text that the robot is made of: an editor with findings and fixes, which is loaded when it is first opened. */
 
 import type { App } from "../app";
-import { message } from "../app";
 import type { Editor } from "../editor/editor";
-import type { Mark } from "../editor/marks";
-import { fileName, hasFixes, isDraft } from "../fixes";
-import { ofText } from "../here/draft";
-import type { TextDraft } from "../here/draft";
-import { named } from "../named";
+import type { Mark, Found } from "../editor/marks";
+import type { Deed, Report } from "../engine/protocol";
+import { places } from "../findings";
+import { fileName, hasFixes, isDraft, fixesOf } from "../fixes";
+import { named } from "../site";
+import { ofText } from "../state";
+import type { TextDraft, Draft } from "../state";
 import { button, fill, h, prose } from "../ui/dom";
-import { count, name } from "../ui/format";
-import { offer } from "../ui/offer";
-import { fixButton } from "./fix_button";
-import { foundIn } from "./text_findings";
+import { offer } from "../ui/files";
+import { message, count, name } from "../ui/format";
+import { fixButton } from "./places";
+import { DEEDS } from "./programs";
 
 /** Numbers of characters from which a text is without colours, and from which it is only shown. */
 const PLAIN = 2e6;
@@ -63,7 +64,7 @@ export function text(app: App): HTMLElement {
     const draft = ofText(app.store.now.draft);
     if (!draft) return;
     offer(new Blob([draft.text], { type: "application/xml" }), fileName(draft));
-    app.drafting?.saved();
+    app.site.here?.saved();
   }
 
   async function load(): Promise<void> {
@@ -75,7 +76,7 @@ export function text(app: App): HTMLElement {
       editor = new bundle.Editor(host.shadowRoot ?? host.attachShadow({ mode: "open" }), {
         changed: (text) => {
           if (shown) shown.text = text;
-          if (text !== app.store.now.draft?.text) app.drafting?.edit(text);
+          if (text !== app.store.now.draft?.text) app.site.here?.edit(text);
         },
         moved: list,
         save,
@@ -200,4 +201,23 @@ export function text(app: App): HTMLElement {
 
   app.store.on(["draft", "tab", "report", "textAt"], follow);
   return panel;
+}
+
+/** The findings of a report that have a line of the draft. */
+function foundIn(report: Report, draft: Draft): Found[] {
+  const urdd = report.urdds[0];
+  if (!urdd) return [];
+  const names = new Map(urdd.programs.map(({ program, name }) => [program, name]));
+  return urdd.findings.flatMap((finding) => {
+    const { code, severity, message } = finding;
+    const deeds = new Map<Deed, string[]>();
+    for (const { program, does } of finding.programs)
+      deeds.set(does, [...(deeds.get(does) ?? []), names.get(program) ?? program]);
+    const programs = [...deeds].map(([deed, names]) => `${DEEDS[deed]}: ${names.join(", ")}`).join(" · ");
+    return places(finding).flatMap((place) => {
+      if (place.line === null || !isDraft(draft, place.file)) return [];
+      const { line, column, message: here } = place;
+      return [{ code, severity, message: here ?? message, programs, line, column, fixes: fixesOf(draft, place) }];
+    });
+  });
 }

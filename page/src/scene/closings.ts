@@ -1,10 +1,10 @@
 /** The ends of kinematic loops, drawn over the robot: a point where a loop is closed, a red line with its length where not. */
 
 import { Group, Matrix4, Quaternion, Vector3 } from "three";
-import { apart } from "../apart";
 import type { LoopErrors, Pose } from "../engine/protocol";
 import type { RobotModel } from "../model";
 import { h } from "../ui/dom";
+import { apart } from "../ui/format";
 import { linkMatrix } from "./drag";
 import { Segment } from "./segment";
 import type { View } from "./view";

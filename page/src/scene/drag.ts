@@ -20,7 +20,7 @@ export function linkMatrix(poses: Float64Array, link: number): Matrix4 {
 }
 
 /** The position and the axis of a joint, in the root link's frame. */
-export function jointFrame(model: RobotModel, poses: Float64Array, joint: number): { origin: Vector3; axis: Vector3 } {
+function jointFrame(model: RobotModel, poses: Float64Array, joint: number): { origin: Vector3; axis: Vector3 } {
   const found = model.joints[joint];
   const parent = linkMatrix(poses, found?.parent ?? 0);
   const frame = found?.origin ? parent.multiply(matrix(found.origin)) : parent;

@@ -9,7 +9,7 @@ import { linkMatrix } from "./drag";
 import type { View } from "./view";
 
 export const GIZMOS = ["translate", "rotate"] as const;
-export type GizmoKind = (typeof GIZMOS)[number];
+type GizmoKind = (typeof GIZMOS)[number];
 
 /** Position error above which a target counts as out of reach, metres. */
 const REACHED = 1e-4;

@@ -25,7 +25,7 @@ export function startTheme(): void {
   matchMedia("(prefers-color-scheme: light)").addEventListener("change", announce);
 }
 
-export function isLight(): boolean {
+function isLight(): boolean {
   const chosen = document.documentElement.dataset["theme"];
   return chosen ? chosen === "light" : matchMedia("(prefers-color-scheme: light)").matches;
 }
