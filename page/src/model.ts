@@ -113,6 +113,11 @@ export class RobotModel {
     return this.links.findIndex((link) => link.name === name);
   }
 
+  /** The link that a part is, or that it moves. */
+  linkOf(part: Part | null): number | null {
+    return part?.kind === "joint" ? (this.joints[part.index]?.child ?? null) : (part?.index ?? null);
+  }
+
   /** The joints from a link to the root, the link's own first. */
   path(link: number): number[] {
     const joints: number[] = [];

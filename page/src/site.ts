@@ -5,6 +5,7 @@ import type { RobotSource } from "./engine/client";
 import type { Explanation, FileEntry, Report } from "./engine/protocol";
 import * as inline from "./inline";
 import { unknown } from "./model";
+import { keep, kept } from "./ui/storage";
 import type { Entry } from "./model";
 
 export type Mode = "live" | "static" | "inline";
@@ -36,7 +37,7 @@ export class Site {
   /** The robots, requested with a link's token, or with the one that this browser remembers. */
   async known(token: string | null): Promise<Entry[]> {
     if (this.mode !== "live") return this.robots();
-    const tokens = new Set([token, this.token, keptToken()].filter((known) => known !== null));
+    const tokens = new Set([token, this.token, kept(KEY)].filter((known) => known !== null));
     for (const known of tokens) {
       this.token = known;
       try {
@@ -193,23 +194,12 @@ export function named(name: string): string {
   return (place >= 0 && words[place + 1]) || name;
 }
 
-// All tabs of this browser share the token. Storage is separate for each address and port, so no other page or server of this
-// machine can read it.
+/**
+ * All tabs of this browser share the token. Storage is separate for each address and port, so no other page or server of this
+ * machine can read it.
+ */
 const KEY = "urdd-token";
 
-function keptToken(): string | null {
-  try {
-    return localStorage.getItem(KEY);
-  } catch {
-    // A sandboxed frame, as in a notebook, has no storage.
-    return null;
-  }
-}
-
 export function keepToken(token: string | null): void {
-  try {
-    if (token !== null) localStorage.setItem(KEY, token);
-  } catch {
-    // It lasts until the page is closed.
-  }
+  if (token !== null) keep(KEY, token);
 }

@@ -39,7 +39,7 @@ export type RobotSource =
 export interface Calls {
   /** The module: its address, or its bytes, compressed by brotli. */
   init: [{ wasm: string | ArrayBuffer }, null];
-  open: [{ source: RobotSource }, { about: About; files: FileEntry[]; folder: string }];
+  open: [{ source: RobotSource }, { about: About; files: FileEntry[] }];
   linkPoses: [{ q: number[] }, Float64Array];
   random: [{ k: number }, number[]];
   file: [{ path: string }, ArrayBuffer];

@@ -37,7 +37,6 @@ const MODULES = {
 
 /** The files of one robot, and those that the module already has. */
 class Store {
-  readonly name: string;
   private open: number | null;
   private readonly given = new Set<string>();
   private readonly faults = new Map<string, string>();
@@ -53,13 +52,11 @@ class Store {
     if (source.kind === "zip") {
       this.open = module.zip(source.name, new Uint8Array(source.bytes));
       const listed = module.list(this.handle);
-      this.name = listed.name;
       this.sizes = new Map(listed.files.map((file) => [file.path, file.size]));
       for (const path of this.sizes.keys()) this.given.add(path);
       return;
     }
     this.open = module.files(source.name, {});
-    this.name = source.name;
     if (source.kind === "local") {
       for (const { path, file } of source.files) this.local.set(path, file);
       this.sizes = new Map(source.files.map(({ path, file }) => [path, file.size]));
@@ -193,7 +190,7 @@ const handlers: Handlers<Calls> = {
     await store.ensure(store.needed("about"), (done, of) => onProgress(done, of, "modules"));
     robot = engineNow.open(store.handle);
     about = engineNow.ask(robot, { ask: "about" }) as About;
-    return { about, files: store.list(), folder: store.name };
+    return { about, files: store.list() };
   },
 
   linkPoses({ q }) {

@@ -1,7 +1,6 @@
 /** Robots that this page makes of descriptions: what their workers are asked, what is asked of the files of a drop, and the stages of a robot. */
 
-import type * as Npm from "../../../wasm/npm/index";
-import type { ExportOptions, Format, GenerateOptions } from "../../../wasm/npm/index";
+import type { ExportOptions, Format, Generated, GenerateOptions } from "../../../wasm/npm/index";
 import { lost, USD_TEXT } from "../drop";
 import type { Given } from "../drop";
 import type { RobotSource } from "../engine/client";
@@ -13,18 +12,9 @@ import type { Entry } from "../model";
 import { named } from "../site";
 import { message } from "../ui/format";
 
-export type { Description };
-
 type MakeOptions = Pick<GenerateOptions, "modules">;
 
 export type Actuators = NonNullable<ExportOptions["actuators"]>;
-
-/** What the module answers: of the package's answer, `files` is an address there. */
-type Answer<T> = Omit<T, "files"> & { files: number };
-
-export type Made = Answer<Omit<Npm.Generated, "name">> & { robot: string };
-export type Imported = Answer<Npm.ImportedRobot>;
-export type Exported = Answer<Npm.Exported>;
 
 /** The worker's queries and answers, by name. */
 export interface MakerCalls {
@@ -41,14 +31,14 @@ export interface MakerCalls {
    */
   generate: [
     { path: string; donor: Given[]; options: MakeOptions },
-    { robot: string; links: number; dofs: number; notes: string[]; paths: string[]; files: Given[] },
+    Pick<Generated, "links" | "dofs" | "notes"> & { paths: string[]; files: Given[] },
   ];
   /** The files of the URDF that an MJCF, SDF or USD becomes. */
-  import: [{ path: string }, { main: string; files: Given[] }];
+  import: [{ path: string }, Given[]];
   /** Files for another program, of a URDD. */
   export: [
     { urdd: Given[]; format: Format; output: string; actuators: Actuators | null },
-    { main: string; notes: string[]; files: Given[] },
+    { notes: string[]; files: Given[] },
   ];
   /** A .zip of files. */
   zip: [{ files: Given[] }, Blob];

@@ -3,7 +3,8 @@
 import type { Format } from "../../../wasm/npm/index";
 import type { App } from "../app";
 import type { Given } from "../drop";
-import { ofText } from "../state";
+import { fileName } from "../fixes";
+import { saveDraft } from "../panels/text";
 import { button, fill, h } from "../ui/dom";
 import { offer } from "../ui/files";
 import { message, name } from "../ui/format";
@@ -59,7 +60,12 @@ export function savingHere(app: App, here: Here): { element: HTMLDialogElement; 
   formats.addEventListener("change", choose);
   choose();
   const urdd = button("Save the URDD", { class: "main" }, () => act(() => saveUrdd(app, here)));
-  const text = button("", {}, () => act(() => saveText(app, here)));
+  const text = button("", {}, () =>
+    act(() => {
+      saveDraft(app);
+      return Promise.resolve();
+    }),
+  );
   const urdf = button("Save as URDF, with meshes", {}, () => act(() => saveUrdf(here)));
   const other = button("Save", {}, () =>
     act(async () => {
@@ -106,7 +112,7 @@ export function savingHere(app: App, here: Here): { element: HTMLDialogElement; 
     urdd.disabled = other.disabled = !open?.isWhole;
     text.hidden = !draft || draft.text === null;
     text.disabled = false;
-    text.textContent = `Save ${name(draft?.path.split("/").pop() ?? "")}`;
+    text.textContent = `Save ${name(draft ? fileName(draft) : "")}`;
     urdf.hidden = !draft || draft.format === "urdf";
     urdf.disabled = false;
     hint.textContent = open?.isWhole
@@ -158,22 +164,12 @@ async function saveUrdd(app: App, here: Here): Promise<void> {
   app.store.set({ skips: { ...app.store.now.skips, dirty: false } });
 }
 
-/** The text as it is now. */
-function saveText(app: App, here: Here): Promise<void> {
-  const draft = ofText(app.store.now.draft);
-  if (draft) {
-    offer(new Blob([draft.text], { type: "application/xml" }), draft.path.split("/").pop() ?? draft.path);
-    here.saved();
-  }
-  return Promise.resolve();
-}
-
 /** The URDF, with meshes, that an MJCF, SDF or USD becomes. */
 async function saveUrdf(here: Here): Promise<void> {
   const robot = opened(here);
   const maker = await robot.reader.worker();
   try {
-    const { files } = await maker.ask("import", { path: robot.description.path });
+    const files = await maker.ask("import", { path: robot.description.path });
     await offerAll(here, files, `${robot.entry.name}_urdf`);
   } finally {
     maker.end();

@@ -2,13 +2,14 @@
 
 import { zipSync } from "fflate";
 import type { Zippable } from "fflate";
+import type { Exported, Generated, ImportedRobot } from "../../../wasm/npm/index";
 import { hasPlace } from "../drop";
 import type { Given } from "../drop";
 import { changes, contents, started, serve } from "../engine/link";
 import type { Urdd, OnProgress } from "../engine/link";
-import type { Report } from "../engine/protocol";
+import type { Description, Report } from "../engine/protocol";
 import { bytes, message } from "../ui/format";
-import type { Description, Exported, Imported, Made, MakerCalls } from "./made";
+import type { MakerCalls } from "./made";
 
 /** Maximum size of what is read for one robot: it is in memory more than once while it is made. */
 const MAX_ROBOT = 512 * 2 ** 20;
@@ -16,6 +17,9 @@ const MAX_ROBOT = 512 * 2 ** 20;
 const TIME = "1980-01-02T00:00:00";
 /** How much a .zip is compressed, of 0 to 9: meshes gain little from more. */
 const LEVEL = 3;
+
+/** An answer of the module: of the package's, `files` is an address there. */
+type Answer<T> = Omit<T, "files"> & { files: number };
 
 /** As the libraries of TypeScript for pages do not have it. */
 declare class FileReaderSync {
@@ -111,25 +115,26 @@ serve<MakerCalls>(
       if (last === 0 && donor.length > 0) last = await opened(donor);
       tell = onProgress;
       begin();
-      const made = maker().generate(files, { path, ...options }, last) as Made;
+      const made = maker().generate(files, { path, ...options }, last) as Answer<Generated>;
       const before = last;
       last = made.files;
       const { paths, changed } = changes(maker(), last, before);
       maker().closeFiles(before);
-      return { ...made, paths, files: changed };
+      const { links, dofs, notes } = made;
+      return { links, dofs, notes, paths, files: changed };
     },
 
     import({ path }) {
       begin();
-      const made = maker().importRobot(files, { path }) as Imported;
-      return { main: made.urdf, files: contents(maker(), made.files) };
+      const made = maker().importRobot(files, { path }) as Answer<ImportedRobot>;
+      return contents(maker(), made.files);
     },
 
     async export({ urdd, format, output, actuators }) {
       const from = await opened(urdd);
-      const made = maker().export(from, { format, output, actuators }) as Exported;
+      const made = maker().export(from, { format, output, actuators }) as Answer<Exported>;
       maker().closeFiles(from);
-      return { main: made.main, notes: made.notes, files: contents(maker(), made.files) };
+      return { notes: made.notes, files: contents(maker(), made.files) };
     },
 
     zip({ files: all }) {

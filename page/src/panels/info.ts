@@ -4,7 +4,7 @@ import { Euler, Quaternion, Vector3 } from "three";
 import type { App } from "../app";
 import type { Inertial, Loops } from "../engine/protocol";
 import type { RobotModel } from "../model";
-import { linkMatrix } from "../scene/drag";
+import { poseOf } from "../scene/robot";
 import { button, fill, h } from "../ui/dom";
 import { bytes, count, dofValue, lengths, name, number } from "../ui/format";
 
@@ -182,7 +182,7 @@ function placing(app: App): HTMLElement {
     const { robot, selected, poses } = app.store.now;
     element.hidden = !robot || !poses || selected?.kind !== "link";
     if (!poses || selected?.kind !== "link") return;
-    const pose = linkMatrix(poses, Number(base.value)).invert().multiply(linkMatrix(poses, selected.index));
+    const pose = poseOf(poses, Number(base.value)).invert().multiply(poseOf(poses, selected.index));
     const [position, turn, scale] = [new Vector3(), new Quaternion(), new Vector3()];
     pose.decompose(position, turn, scale);
     if (turn.w < 0) turn.set(-turn.x, -turn.y, -turn.z, -turn.w);

@@ -269,16 +269,7 @@ function selected(app: App, detail: HTMLElement, pair: PairDistance | null, answ
         "Collision checks skip these two links once the edit is saved in Skips",
         () => void decide(app, [{ link_a: pair.links[0], link_b: pair.links[1], skip: true, reason: "" }]),
       ),
-      button(
-        "Skip all nearer",
-        "Every pair of links that is nearer than this one in this configuration",
-        () => void nearer(app, pair.link_idxs, "distance", ""),
-      ),
-      button(
-        "Skip all relatively nearer",
-        "Every pair of links whose distance is a smaller fraction of its mean",
-        () => void nearer(app, pair.link_idxs, "relative", ""),
-      ),
+      ...skipNearer(app, pair.link_idxs, () => ""),
       button("Show in Skips", {}, () => app.store.set({ tab: "Skips" })),
       button("Show only these", {}, () => {
         const keep = new Set(pair.link_idxs);
@@ -291,6 +282,22 @@ function selected(app: App, detail: HTMLElement, pair: PairDistance | null, answ
       }),
     ),
   );
+}
+
+/** Buttons that skip the pairs of links that are nearer than these. */
+export function skipNearer(app: App, links: [number, number], reason: () => string): HTMLElement[] {
+  return [
+    button(
+      "Skip all nearer",
+      "Every pair of links that is nearer than this one in this configuration",
+      () => void nearer(app, links, "distance", reason()),
+    ),
+    button(
+      "Skip all relatively nearer",
+      "Every pair of links whose distance is a smaller fraction of its mean",
+      () => void nearer(app, links, "relative", reason()),
+    ),
+  ];
 }
 
 /** The learned model's estimate beside the exact result: an element, and a function that shows an answer in it. */

@@ -4,11 +4,11 @@ import type { App } from "../app";
 import { SHAPE_KINDS } from "../engine/protocol";
 import type { ShapeKind, SkipEdit, SkipsAnswer } from "../engine/protocol";
 import type { RobotModel } from "../model";
-import { decide, download, isSkipped, letterAt, load, nearer, save, undo } from "../skips";
+import { decide, download, isSkipped, letterAt, load, save, undo } from "../skips";
 import type { Pair } from "../state";
 import { button, cut, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
-import { SHAPE_NAMES } from "./proximity";
+import { SHAPE_NAMES, skipNearer } from "./proximity";
 import { at, draw, REASONS, reasonClass, region } from "./skip_matrix";
 
 /** Maximum number of rows with names. */
@@ -274,16 +274,7 @@ function decision(app: App, robot: RobotModel, answer: SkipsAnswer, pair: Pair):
       { class: "actions" },
       button("Skip", "All pairs of shapes of these two links", () => void decide(app, [say(true)])),
       button("Check", "All pairs of shapes of these two links", () => void decide(app, [say(false)])),
-      button(
-        "Skip all nearer",
-        "Every pair of links that is nearer than this one in this configuration",
-        () => void nearer(app, links, "distance", reason.value.trim()),
-      ),
-      button(
-        "Skip all relatively nearer",
-        "Every pair of links whose distance is a smaller fraction of its mean",
-        () => void nearer(app, links, "relative", reason.value.trim()),
-      ),
+      ...skipNearer(app, links, () => reason.value.trim()),
     ),
   ];
 }

@@ -32,6 +32,7 @@ export function text(app: App): HTMLElement {
     button("↷", { "aria-label": "Redo", title: "Redo (Ctrl-Shift-Z)" }, () => editor?.redo()),
     button("Find", "Find and replace (Ctrl-F)", () => editor?.find()),
   ];
+  const save = (): void => saveDraft(app);
   const saving = button("Save", { class: "main", title: "Download the text as a file (Ctrl-S)" }, save);
   const hint = h("p", { class: "hint" });
   const host = h("div", { class: "editor" });
@@ -59,13 +60,6 @@ export function text(app: App): HTMLElement {
   addEventListener("beforeunload", (event) => {
     if (app.store.now.draft?.isChanged) event.preventDefault();
   });
-
-  function save(): void {
-    const draft = ofText(app.store.now.draft);
-    if (!draft) return;
-    offer(new Blob([draft.text], { type: "application/xml" }), fileName(draft));
-    app.site.here?.saved();
-  }
 
   async function load(): Promise<void> {
     loading = true;
@@ -201,6 +195,14 @@ export function text(app: App): HTMLElement {
 
   app.store.on(["draft", "tab", "report", "textAt"], follow);
   return panel;
+}
+
+/** Downloads the text as it is now. */
+export function saveDraft(app: App): void {
+  const draft = ofText(app.store.now.draft);
+  if (!draft) return;
+  offer(new Blob([draft.text], { type: "application/xml" }), fileName(draft));
+  app.site.here?.saved();
 }
 
 /** The findings of a report that have a line of the draft. */

@@ -122,9 +122,7 @@ export function tree(app: App): HTMLElement {
     }
   });
   app.store.on(["robot", "selected", "hovered", "hidden", "pair"], ({ robot, selected, hovered, hidden, pair }) => {
-    const linkOf = (part: typeof selected): number | null =>
-      part?.kind === "joint" ? (robot?.joints[part.index]?.child ?? null) : (part?.index ?? null);
-    const [chosen, under] = [linkOf(selected), linkOf(hovered)];
+    const [chosen, under] = [robot?.linkOf(selected), robot?.linkOf(hovered)];
     for (const row of rows) {
       const is = row.link === chosen || (pair?.some(([link]) => link === row.link) ?? false);
       row.element.setAttribute("aria-selected", String(is));
@@ -135,8 +133,7 @@ export function tree(app: App): HTMLElement {
   });
   let last: number | null = null;
   app.store.on(["selected"], ({ selected, robot }) => {
-    const link =
-      selected?.kind === "joint" ? (robot?.joints[selected.index]?.child ?? null) : (selected?.index ?? null);
+    const link = robot?.linkOf(selected) ?? null;
     if (link !== null && link !== last)
       rows.find((row) => row.link === link)?.element.scrollIntoView({ block: "nearest" });
     last = link;

@@ -22,6 +22,7 @@ import type { Material, Object3D } from "three";
 import type { Inertial } from "../engine/protocol";
 import type { RobotModel } from "../model";
 import type { OverlayKind } from "../state";
+import { poseOf } from "./robot";
 
 type Drawn = Mesh | LineSegments | Line;
 
@@ -60,12 +61,8 @@ export class Overlays {
 
   /** Sets their poses from the links'. */
   pose(poses: Float64Array): void {
-    const [place, turn, one] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
     this.frames.forEach((group, link) => {
-      const get = (k: number): number => poses[7 * link + k] ?? 0;
-      place.set(get(0), get(1), get(2));
-      turn.set(get(4), get(5), get(6), get(3));
-      group.matrix.compose(place, turn, one);
+      group.matrix.copy(poseOf(poses, link));
       group.matrixWorldNeedsUpdate = true;
     });
     for (const child of this.group.children) {

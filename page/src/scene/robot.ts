@@ -6,6 +6,7 @@ import { CHANGE_COLORS } from "../compared";
 import { placeKey } from "../contacts";
 import { partColor } from "../document";
 import { paintNow, paintOf } from "../findings";
+import type { Pose } from "../engine/protocol";
 import { LAYERS, ghosted } from "../state";
 import type { Layer, LayerKind, State } from "../state";
 import { color } from "../ui/theme";
@@ -30,6 +31,10 @@ export function dataOf(object: Object3D): MeshData | null {
 export function poseOf(poses: Float64Array, link: number): Matrix4 {
   const [x = 0, y = 0, z = 0, w = 1, qx = 0, qy = 0, qz = 0] = poses.subarray(7 * link, 7 * link + 7);
   return new Matrix4().compose(new Vector3(x, y, z), new Quaternion(qx, qy, qz, w), new Vector3(1, 1, 1));
+}
+
+export function matrixOf({ position, quaternion_wxyz: [w, x, y, z] }: Pose): Matrix4 {
+  return new Matrix4().compose(new Vector3(...position), new Quaternion(x, y, z, w), new Vector3(1, 1, 1));
 }
 
 /** The appearance of a link in all layers: a tint, and a factor of its opacity. */

@@ -1,6 +1,7 @@
 /** Readable numbers with units. */
 
 import type { Unit, Loop, LoopErrors } from "../engine/protocol";
+import { keep, kept } from "./storage";
 
 const MINUS = "−";
 
@@ -33,23 +34,15 @@ const units: Units = { length: "mm", angle: "°" };
 
 /** The last choice of units. */
 export function keptUnits(): Units {
-  try {
-    const [length, angle] = (localStorage.getItem(KEY) ?? "").split(" ");
-    if (length === "m") units.length = "m";
-    if (angle === "rad") units.angle = "rad";
-  } catch {
-    // A sandboxed frame, as in a notebook, has no storage.
-  }
+  const [length, angle] = (kept(KEY) ?? "").split(" ");
+  if (length === "m") units.length = "m";
+  if (angle === "rad") units.angle = "rad";
   return { ...units };
 }
 
 export function keepUnits({ length, angle }: Units): void {
   Object.assign(units, { length, angle });
-  try {
-    localStorage.setItem(KEY, `${length} ${angle}`);
-  } catch {
-    // They last until the page is closed.
-  }
+  keep(KEY, `${length} ${angle}`);
 }
 
 /** A length in metres, in the displayed unit. */
