@@ -20,7 +20,7 @@ export async function load(app: App, shapes: ShapeKind): Promise<void> {
   const edits = skips.dirty ? skips.answer?.edits : null;
   try {
     const answer = edits
-      ? await app.engine.ask("editSkips", { kind: shapes, edits, skipped_reasons: null })
+      ? await app.engine.ask("editSkips", { kind: shapes, edits })
       : await app.engine.ask("skips", { kind: shapes });
     app.store.set({ skips: { ...app.store.now.skips, answer, error: null } });
   } catch (error) {
@@ -51,7 +51,7 @@ async function change(app: App, edits: SkipEdit[], before: SkipEdit[][]): Promis
   const { skips } = app.store.now;
   if (!skips.answer) return;
   try {
-    const answer = await app.engine.ask("editSkips", { kind: skips.answer.kind, edits, skipped_reasons: null });
+    const answer = await app.engine.ask("editSkips", { kind: skips.answer.kind, edits });
     app.store.set({ skips: { ...app.store.now.skips, answer, error: null, before, dirty: before.length > 0 } });
   } catch (error) {
     app.note(`The edit failed: ${message(error)}`);

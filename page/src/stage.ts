@@ -3,7 +3,7 @@
 import { Vector3 } from "three";
 import type { Box3 } from "three";
 import type { App } from "./app";
-import { Beside } from "./beside";
+import { Beside } from "./comparing";
 import type { RobotModel } from "./model";
 import { absent } from "./panels/absent";
 import { chooseOther, comparison } from "./panels/comparison";

@@ -77,9 +77,8 @@ const JSON: &[(&str, &str)] = &[
     ("src/cli/configurations.rs", "a line of a file within MAX_BYTES"),
     ("src/cli/conformance/common.rs", "MAX_LOG_LINE"),
     ("wasm/src/export.rs", "the page's own"),
-    ("wasm/src/generate.rs", "the page's own"),
-    ("wasm/src/import.rs", "the page's own"),
     ("wasm/src/lint.rs", "the page's own"),
+    ("wasm/src/make.rs", "the page's own"),
     ("wasm/src/robot.rs", "the page's own"),
     ("wasm/src/spheres.rs", "the page's own"),
 ];

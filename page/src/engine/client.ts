@@ -55,7 +55,7 @@ export interface Calls {
   /** The `k` nearest pairs, or all contacts if there are more. */
   proximity: [{ q: number[]; kind: ShapeKind; k: number }, ProximityAnswer];
   skips: [{ kind: ShapeKind }, SkipsAnswer];
-  editSkips: [{ kind: ShapeKind; edits: SkipEdit[]; skipped_reasons: string[] | null }, SkipsAnswer];
+  editSkips: [{ kind: ShapeKind; edits: SkipEdit[] }, SkipsAnswer];
   samples: [Record<string, never>, { samples: Sample[] }];
   explain: [{ code: string }, Explanation];
   validate: [{ name: string }, Report];

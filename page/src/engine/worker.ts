@@ -261,10 +261,10 @@ const handlers: Handlers<Calls> = {
     return engine().ask(open(), { ask: "skips", kind }) as Calls["skips"][1];
   },
 
-  async editSkips({ kind, edits, skipped_reasons }) {
+  async editSkips({ kind, edits }) {
     const { store } = opened();
     await store.ensure([...store.needed("pairs"), ...store.needed("about")]);
-    return engine().ask(open(), { ask: "edit_skips", kind, edits, skipped_reasons }) as Calls["editSkips"][1];
+    return engine().ask(open(), { ask: "edit_skips", kind, edits, skipped_reasons: null }) as Calls["editSkips"][1];
   },
 
   async samples() {

@@ -9,7 +9,6 @@ import { worstOfLinks } from "../findings";
 
 interface Row {
   link: number;
-  depth: number;
   element: HTMLElement;
   value: HTMLElement;
   dot: HTMLElement;
@@ -64,7 +63,7 @@ export function tree(app: App): HTMLElement {
     element.addEventListener("dblclick", () => app.store.set({ tab: "Joints" }));
     element.addEventListener("pointerenter", () => app.hover({ kind: "link", index: link }));
     element.addEventListener("pointerleave", () => app.hover(null));
-    return { link, depth, element, value, dot };
+    return { link, element, value, dot };
   };
 
   const filter = (): void => {
