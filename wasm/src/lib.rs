@@ -29,8 +29,6 @@ mod loops;
 mod make;
 mod memory;
 #[cfg(feature = "robot")]
-mod mesh;
-#[cfg(feature = "robot")]
 mod model;
 #[cfg(feature = "robot")]
 mod pairs;

@@ -14,23 +14,21 @@ const AT_ONCE = 8;
 
 const CLOSED = "another robot was opened";
 
-const ABOUT = [
-  "urdf",
-  "chain",
-  "dof",
-  "bounds",
-  "loops",
-  "original_meshes",
-  "plain_meshes",
-  "convex_hull_meshes",
-  "convex_decomposition_meshes",
-];
-const PAIRS = ["link_shapes_skips", "link_shapes_simple_skips", "link_shapes_distance_statistics"];
-
+/** The modules that a query needs. */
 const MODULES = {
-  about: ABOUT,
+  about: [
+    "urdf",
+    "chain",
+    "dof",
+    "bounds",
+    "loops",
+    "original_meshes",
+    "plain_meshes",
+    "convex_hull_meshes",
+    "convex_decomposition_meshes",
+  ],
   shapes: ["link_shapes_approximations"],
-  pairs: PAIRS,
+  pairs: ["link_shapes_skips", "link_shapes_simple_skips", "link_shapes_distance_statistics"],
   model: ["self_collision_model"],
   samples: ["kinematics_samples"],
 };

@@ -66,14 +66,6 @@ export class Kit {
     }
   }
 
-  /** A worker with files, of which some have another text by now. */
-  async begun(files: Given[], changed: Map<string, string>): Promise<Maker> {
-    const maker = await this.worker();
-    await maker.ask("take", { files });
-    for (const [path, text] of changed) await maker.ask("put", { path, text });
-    return maker;
-  }
-
   /** Does one job in a worker of its own. */
   async once<T>(job: (maker: Maker) => Promise<T>): Promise<T> {
     const maker = await this.worker();
@@ -125,8 +117,12 @@ export class Reader {
   }
 
   /** A worker that begins with these files. */
-  worker(): Promise<Maker> {
-    return this.kit.begun(this.files, this.changed);
+  async worker(): Promise<Maker> {
+    const { files, changed } = this;
+    const maker = await this.kit.worker();
+    await maker.ask("take", { files });
+    for (const [path, text] of changed) await maker.ask("put", { path, text });
+    return maker;
   }
 
   end(): void {
@@ -186,11 +182,6 @@ export class MadeRobot {
     return { kind: "local", name: this.description.name, files: this.files };
   }
 
-  /** Whether it is being made. */
-  get isRunning(): boolean {
-    return this.entry.making !== null;
-  }
-
   lint(): Promise<Report> {
     this.report = this.reader.lint(this.description.path);
     return this.report;
@@ -237,7 +228,7 @@ export class MadeRobot {
     this.turn++;
     this.maker?.end();
     this.maker = null;
-    if (this.isRunning || failure !== null) this.set({ making: null, failure, stopped });
+    if (this.entry.making !== null || failure !== null) this.set({ making: null, failure, stopped });
   }
 
   /** Gives back the memory of what can be had again. */

@@ -5,6 +5,7 @@ import type { Entry } from "../model";
 import { button, fill, h } from "../ui/dom";
 import { picker } from "../ui/files";
 import { message, count, name } from "../ui/format";
+import { generating } from "./status";
 
 /** Number of parallel requests. */
 const AT_ONCE = 2;
@@ -137,7 +138,7 @@ function card(first: Entry, open: (entry: Entry) => void, remove: (entry: Entry)
 }
 
 function words({ ready, making, failure, verdict, findings }: Entry): string {
-  if (making) return making.of > 0 ? `generating: ${making.done} of ${making.of}` : "generating";
+  if (making) return generating(making);
   if (failure !== null) return "generation failed";
   if (!ready) return "generated when it is opened";
   if (verdict === null) return "";

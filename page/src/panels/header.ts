@@ -10,7 +10,7 @@ import type { Child } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { toggleTheme } from "../ui/theme";
 import { absentChip } from "./absent";
-import { collision } from "./status";
+import { collision, generating } from "./status";
 
 /** The layers in the bar; the panel has all. */
 const SHORT = LAYERS.slice(0, LAYERS.indexOf("spheres") + 1);
@@ -153,7 +153,7 @@ function running(
   actions: { stop: () => void; goOn: () => void },
 ): Node[] {
   if (making) {
-    const chip = h("span", { class: "chip making" }, progress(making));
+    const chip = h("span", { class: "chip making" }, generating(making));
     const stop = button("Stop", { class: "chip", title: "Stop generating; what is there stays" }, actions.stop);
     return here ? [chip, stop] : [chip];
   }
@@ -164,10 +164,6 @@ function running(
 
 function kept({ here }: Entry): string {
   return here ? "It is in this page only, and gone when you close it" : "Deleted when `urdd view` ends";
-}
-
-function progress({ done, of }: { done: number; of: number }): string {
-  return of > 0 ? `generating: ${done} of ${of}` : "generating";
 }
 
 function version(metadata: Record<string, unknown> | null, profile: string): string {

@@ -15,6 +15,11 @@ export function said({ title = "Loading", what, done, of }: NonNullable<State["l
   return `${title} ${what}${of > 0 ? `, ${done} of ${of}` : ""}`;
 }
 
+/** The progress of a generation, in words. */
+export function generating({ done, of }: { done: number; of: number }): string {
+  return of > 0 ? `generating: ${done} of ${of}` : "generating";
+}
+
 /** Whether the robot collides: a text, a shorter one, and a class. */
 export function collision({ robot, proximity, contacts }: Readonly<State>): {
   text: string;
