@@ -239,10 +239,10 @@ const NAMED_FILES: &[(&str, &str)] = &[
     ),
     ("crates/urdd-source/src/packages.rs", "`package.xml`; 1 MiB"),
     ("crates/urdd-source/src/usd_layers.rs", "USDs in a folder that a person names; 512 MiB"),
+    ("wasm/src/about.rs", "a mesh that was given to the page, for its picture"),
     ("wasm/src/around.rs", "descriptions that were dropped; 64 MiB"),
     ("wasm/src/files.rs", "what was given to the page, for the page"),
     ("wasm/src/robot.rs", "the files of a URDD that was given to the page"),
-    ("wasm/src/sources.rs", "a mesh that was given to the page, for its picture"),
 ];
 
 /// The files of the libraries and programs of which the code, tests apart, has one of these words.
