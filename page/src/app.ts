@@ -353,7 +353,7 @@ function carried(
   robot: RobotModel,
   { q, selected, hidden, pair }: State,
 ): Partial<State> & { q: number[] } {
-  const link = (index: number): number => robot.link(old.links[index]?.name ?? "");
+  const link = (index: number): number => robot.link(old.nameOf(index));
   const zero = robot.about.zero ?? [];
   const place = ({ name, bounds }: Dof, k: number): number => {
     const value = q[old.dofs.findIndex((dof) => dof.name === name)];

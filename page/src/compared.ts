@@ -74,7 +74,7 @@ function jointAbove(robot: RobotModel, link: Link): Joint | null {
 }
 
 function nameOf(robot: RobotModel, link: number | null): string {
-  return link === null ? "" : (robot.links[link]?.name ?? "");
+  return link === null ? "" : robot.nameOf(link);
 }
 
 /** What moved a link on its parent. */

@@ -86,7 +86,7 @@ async function shapesOf(engine: Engine, model: RobotModel): Promise<Shapes> {
   const found = new Map<string, LinkMesh[]>();
   for (const [link, meshes] of (model.about.meshes.plain ?? []).entries()) {
     const paths = meshes.flatMap(({ read }) => read ?? []);
-    found.set(model.links[link]?.name ?? "", await engine.ask("triangles", { paths }));
+    found.set(model.nameOf(link), await engine.ask("triangles", { paths }));
   }
   return found;
 }
@@ -185,7 +185,7 @@ export class Beside {
     const same = new Color(color("--open"));
     const tint = new Color(color("--accent"));
     scene.show(layers, new Set(), overlays.wireframe, (link) => {
-      const name = compared.model.links[link]?.name ?? "";
+      const name = compared.model.nameOf(link);
       const change = changes.get(name);
       const paint = change ? new Color(color(CHANGE_COLORS[change])) : same;
       return { tint: name === chosen ? tint : null, fade: 1, paint };

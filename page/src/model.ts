@@ -113,6 +113,10 @@ export class RobotModel {
     return this.links.findIndex((link) => link.name === name);
   }
 
+  nameOf(link: number): string {
+    return this.links[link]?.name ?? "";
+  }
+
   /** The link that a part is, or that it moves. */
   linkOf(part: Part | null): number | null {
     return part?.kind === "joint" ? (this.joints[part.index]?.child ?? null) : (part?.index ?? null);

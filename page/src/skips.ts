@@ -37,10 +37,8 @@ export async function decide(app: App, more: SkipEdit[]): Promise<void> {
     app.note(error ?? "A legacy URDD has no edits: generate a new URDD to edit skips.");
     return;
   }
-  const same = (a: SkipEdit, b: SkipEdit): boolean =>
-    (a.link_a === b.link_a && a.link_b === b.link_b) || (a.link_a === b.link_b && a.link_b === b.link_a);
   // Only the last edit of a pair counts.
-  const kept = edits.filter((edit) => !more.some((other) => same(edit, other)));
+  const kept = edits.filter((edit) => !more.some(({ link_a, link_b }) => isOf(edit, [link_a, link_b])));
   await change(app, [...kept, ...more], [...app.store.now.skips.before, edits]);
   if (app.store.now.tab !== "Skips") {
     app.note(`${count(more.length, "pair")} of links edited. Save or undo in Skips.`);
@@ -122,14 +120,18 @@ export async function nearer(
     app.note("This pair has no such distance: it is skipped, or has no mean.");
     return;
   }
-  const name = (link: number): string => robot.links[link]?.name ?? "";
   const found = [...least.values()].filter((pair) => pair.value < own.value);
   if (found.length === 0) app.note("No other pair is nearer.");
   else
     await decide(
       app,
-      found.map(({ links: [a, b] }) => ({ link_a: name(a), link_b: name(b), skip: true, reason })),
+      found.map(({ links: [a, b] }) => ({ link_a: robot.nameOf(a), link_b: robot.nameOf(b), skip: true, reason })),
     );
+}
+
+/** Whether an edit is of these two links, in any order. */
+export function isOf({ link_a, link_b }: SkipEdit, [a, b]: readonly [string, string]): boolean {
+  return (link_a === a && link_b === b) || (link_a === b && link_b === a);
 }
 
 export function isSkipped(answer: SkipsAnswer, i: number, j: number): boolean {

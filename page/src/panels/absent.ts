@@ -51,7 +51,7 @@ export function absent(app: App): HTMLElement {
     fill(
       list,
       ...absent.slice(0, MAX_NAMED).map((mesh) => {
-        const link = button(name(robot.links[mesh.link]?.name ?? ""), { class: "place" }, () =>
+        const link = button(name(robot.nameOf(mesh.link)), { class: "place" }, () =>
           app.select({ kind: "link", index: mesh.link }),
         );
         return h(

@@ -133,7 +133,7 @@ function groupsOf(app: App, finding: Finding, grouping: Grouping): [string, Find
   const parts = new Map<string, unknown[]>();
   for (const place of all) {
     const link = robot ? linkOf(robot, place) : null;
-    const key = link === null ? NO_LINK : name(robot?.links[link]?.name ?? "");
+    const key = link === null ? NO_LINK : name(robot?.nameOf(link) ?? "");
     parts.set(key, [...(parts.get(key) ?? []), place]);
   }
   const cut = finding.count - all.length;

@@ -32,7 +32,7 @@ export function info(app: App): HTMLElement {
 function linkButton(app: App, robot: RobotModel, link: number | null): Node {
   if (link === null) return h("span", {}, "none");
   return button(
-    name(robot.links[link]?.name ?? ""),
+    name(robot.nameOf(link)),
     {
       class: "place",
     },

@@ -5,7 +5,7 @@ import { byLinks, isContact } from "../contacts";
 import type { LinkPair } from "../contacts";
 import { SHAPE_KINDS } from "../engine/protocol";
 import type { PairDistance, ProximityAnswer, ShapeKind, SkipEdit, Statistics, Learned, Rate } from "../engine/protocol";
-import { decide, nearer } from "../skips";
+import { decide, isOf, nearer } from "../skips";
 import type { Pair } from "../state";
 import { button, cut, fill, h } from "../ui/dom";
 import { count, length, name, percent } from "../ui/format";
@@ -236,11 +236,8 @@ function gauge(
 }
 
 /** Whether an unsaved edit skips these links. */
-function isDecided(edits: readonly SkipEdit[] | null | undefined, [a, b]: [string, string]): boolean {
-  const [last] = (edits ?? [])
-    .filter((edit) => (edit.link_a === a && edit.link_b === b) || (edit.link_a === b && edit.link_b === a))
-    .slice(-1);
-  return last?.skip ?? false;
+function isDecided(edits: readonly SkipEdit[] | null | undefined, links: [string, string]): boolean {
+  return edits?.filter((edit) => isOf(edit, links)).at(-1)?.skip ?? false;
 }
 
 function selected(app: App, detail: HTMLElement, pair: PairDistance | null, answer: ProximityAnswer | null): void {

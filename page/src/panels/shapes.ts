@@ -186,7 +186,7 @@ function notFound(robot: RobotModel, layer: LayerKind, absent: readonly AbsentMe
     geometry === "Visual" ? layer === "original" || layer === "plain" : layer === "collision",
   );
   if (of.length === 0) return "";
-  const links = [...new Set(of.map(({ link }) => name(robot.links[link]?.name ?? "")))];
+  const links = [...new Set(of.map(({ link }) => name(robot.nameOf(link))))];
   const rest = links.length > NAMED ? ` and ${links.length - NAMED} more` : "";
   return `${count(of.length, "mesh was", "meshes were")} not found: ${links.slice(0, NAMED).join(", ")}${rest}`;
 }

@@ -41,6 +41,12 @@ export function at({ rows, columns }: Region, x: number, y: number): [number, nu
   return row === undefined || column === undefined || x < 0 || y < 0 ? null : [row, column];
 }
 
+/** Whether a shape is one of a pair: of this link, or of this piece of it. */
+export function isAt(answer: SkipsAnswer, shape: number, [link, piece]: Pair[0]): boolean {
+  const place = answer.places[shape];
+  return place?.[0] === link && (!answer.kind.startsWith("piece") || place[1] === piece);
+}
+
 export function draw(
   canvas: HTMLCanvasElement,
   answer: SkipsAnswer,
@@ -68,11 +74,7 @@ export function draw(
   });
   context.globalAlpha = 1;
   if (!pair) return;
-  const ofPieces = answer.kind.startsWith("piece");
-  const is = (shape: number, [link, piece]: [number, number]): boolean => {
-    const place = answer.places[shape];
-    return place?.[0] === link && (!ofPieces || place[1] === piece);
-  };
+  const is = (shape: number, one: Pair[0]): boolean => isAt(answer, shape, one);
   context.strokeStyle = style.getPropertyValue("--text");
   context.lineWidth = Math.max(2, ratio * 1.5);
   rows.forEach((i, row) => {

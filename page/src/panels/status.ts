@@ -36,8 +36,7 @@ export function collision({ robot, proximity, contacts }: Readonly<State>): {
   });
   if (error !== null || !robot?.moves) return as("collisions unknown", "open", error ?? "the joints cannot be moved");
   if (!answer || !contacts) return as("checking for collisions…", "open", "");
-  const named = (links: readonly number[]): string =>
-    links.map((link) => name(robot.links[link]?.name ?? "")).join(" – ");
+  const named = (links: readonly number[]): string => links.map((link) => name(robot.nameOf(link))).join(" – ");
   const listed = (all: string[]): string =>
     all.slice(0, NAMED).join(", ") + (all.length > NAMED ? ` and ${all.length - NAMED} more` : "");
   const pairs = contacts.pairs.map(({ links }) => named(links));

@@ -42,7 +42,7 @@ export function tree(app: App): HTMLElement {
     const dot = h("span", { class: "dot" });
     const indent = h("span", { class: "indent" });
     indent.style.width = `${Math.round(depth * step)}px`;
-    const label = name(robot.links[link]?.name ?? "");
+    const label = name(robot.nameOf(link));
     const joint = robot.links[link]?.parent_joint ?? null;
     const title =
       joint === null ? label : `${label}\n${name(robot.joints[joint]?.name ?? "")}: ${robot.joints[joint]?.type ?? ""}`;

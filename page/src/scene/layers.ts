@@ -184,7 +184,7 @@ async function pictures(
         dress(picture, layer, link, piece);
         scene.add(layer, link, picture);
       } catch (error) {
-        faults.push(`${path ?? model.links[link]?.name ?? ""}: ${message(error)}`);
+        faults.push(`${path ?? model.nameOf(link)}: ${message(error)}`);
       }
       onProgress({ done: ++done, of: jobs.length, what: "meshes" });
     }

@@ -228,7 +228,7 @@ function painted(state: Readonly<State>): (link: number) => Color | null {
   if (robot && compared) {
     const changes = new Map(compared.changes.map(({ link, change }) => [link, change]));
     return (link) => {
-      const change = changes.get(robot.links[link]?.name ?? "");
+      const change = changes.get(robot.nameOf(link));
       return new Color(color(change ? CHANGE_COLORS[change] : "--open"));
     };
   }
