@@ -1,22 +1,19 @@
 /** Synchronises the address and the page: links open views, Back and Forward move between them. */
 
 import type { App } from "./app";
-import { message } from "./app";
-import { beside } from "./drop";
-import type { Taken, Taking } from "./drop";
+import { beside, sizeOf } from "./drop";
+import type { Taken, Taking, Given } from "./drop";
 import * as fragment from "./fragment";
-import { missingFrom } from "./here/missing";
 import type { Here } from "./here/here";
-import { sizeOf } from "./here/protocol";
-import type { Given } from "./here/protocol";
 import { untilReady } from "./making";
+import { missingFrom } from "./missing";
 import { unknown } from "./model";
 import type { Entry } from "./model";
+import { keepToken } from "./site";
 import type { Stage } from "./stage";
 import { CHOOSES_PAIRS, initial, LAYERS, OVERLAYS } from "./state";
 import type { State } from "./state";
-import { keepToken } from "./token";
-import { bytes, count } from "./ui/format";
+import { message, bytes, count } from "./ui/format";
 
 /** Delay between a change and the update of the address, ms. */
 const QUIET = 400;
@@ -116,7 +113,7 @@ export class Address {
     try {
       const source = await taking;
       signal.throwIfAborted();
-      const missing = missingFrom(store.now, source);
+      const missing = store.now.draft && missingFrom(store.now, source);
       if (missing) {
         here?.add(missing);
         app.note(`${count(missing.length, "file")} added.`);

@@ -1,22 +1,18 @@
 /** The page's actions: opens robots, moves them, runs queries. Panels show the state and call this. */
 
-import { absentMeshes } from "./absent";
 import { contactsOf } from "./contacts";
+import { namedOf, partsOf, spheresOf } from "./document";
+import type { Engine, RobotSource } from "./engine/client";
 import { Trapped } from "./engine/link";
-import type { Engine } from "./engine/client";
 import type { Dof, InverseQuestion, InverseSolution, Report, ShapeKind } from "./engine/protocol";
-import type { RobotSource } from "./engine/calls";
-import type { Drafting } from "./here/draft";
 import { Latest } from "./latest";
+import { absentMeshes } from "./missing";
 import { RobotModel } from "./model";
-import { namedOf } from "./configurations";
-import { partsOf } from "./parts";
-import { spheresOf } from "./spheres";
 import type { Entry, Part } from "./model";
 import type { Site } from "./site";
 import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, NOT_MADE, partial, PARTIAL, StateStore, UNSEEN } from "./state";
 import type { Layer, LayerKind, Pair, State } from "./state";
-import { keepUnits } from "./ui/format";
+import { keepUnits, message } from "./ui/format";
 import type { Units } from "./ui/format";
 
 /** Number of requested nearest pairs: if they are listed, and if only contacts count. */
@@ -35,8 +31,6 @@ export class App {
   private readonly proximity: Latest<{ q: number[]; shapes: ShapeKind }>;
   /** The revision of the robot's files when they were read; null if unknown. */
   revision: string | null = null;
-  /** Who takes a changed text, where the robot is made in this page. */
-  drafting: Drafting | null = null;
   private opening = 0;
   /** The robot whose first picture is complete. */
   private drawn: RobotModel | null = null;
@@ -353,17 +347,13 @@ export class App {
   }
 }
 
-export function message(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
-}
-
 /** The view of a robot for its next version: joints and links are known by their names. */
 function carried(
   old: RobotModel,
   robot: RobotModel,
   { q, selected, hidden, pair }: State,
 ): Partial<State> & { q: number[] } {
-  const link = (index: number): number => robot.link(old.links[index]?.name ?? "");
+  const link = (index: number): number => robot.link(old.nameOf(index));
   const zero = robot.about.zero ?? [];
   const place = ({ name, bounds }: Dof, k: number): number => {
     const value = q[old.dofs.findIndex((dof) => dof.name === name)];

@@ -1,8 +1,7 @@
 /** Two robots compared link by link, by name, for a picture; `urdd diff` compares more. */
 
-import type { Engine } from "./engine/client";
+import type { Engine, LinkMesh } from "./engine/client";
 import type { Dof, Joint, Link, Vector } from "./engine/protocol";
-import type { LinkMesh } from "./engine/calls";
 import type { RobotModel } from "./model";
 import { dofValue, length, lengths, name, number } from "./ui/format";
 
@@ -28,7 +27,7 @@ export interface Compared {
   changes: readonly LinkChange[];
 }
 
-export interface LinkChange {
+interface LinkChange {
   link: string;
   change: Change;
   /** What changed, in words. */
@@ -75,7 +74,7 @@ function jointAbove(robot: RobotModel, link: Link): Joint | null {
 }
 
 function nameOf(robot: RobotModel, link: number | null): string {
-  return link === null ? "" : (robot.links[link]?.name ?? "");
+  return link === null ? "" : robot.nameOf(link);
 }
 
 /** What moved a link on its parent. */

@@ -1,11 +1,122 @@
 /** Folders and files that are dropped or selected: a URDD, descriptions with the files that they may name, or such files. */
 
-import type { RobotSource } from "./engine/calls";
-import { IS_XACRO, IS_ZIP, MAY_DESCRIBE, OF_ROBOT } from "./endings";
-import { check, checkDescribed, MAX_BYTES, urddFolder } from "./given";
-import { lost, sizeOf } from "./here/protocol";
-import type { Given } from "./here/protocol";
+import type { RobotSource } from "./engine/client";
 
+/** A file that was dropped, was in a .zip, or was made. */
+export interface Given {
+  path: string;
+  file: Blob;
+  /** Whether nobody knows the folder that it belongs into: it was dropped by itself, or later. */
+  isLost?: boolean;
+}
+
+export function lost(given: Given): Given {
+  return { ...given, isLost: true };
+}
+
+export function sizeOf(files: readonly Given[]): number {
+  return files.reduce((sum, { file }) => sum + file.size, 0);
+}
+
+// Files by the endings of their names: `tests/program/file_types.rs` compares the lists with the program's. The worker's bundle
+// has none of these expressions, since they are pure.
+
+/** Files that may be a description; whether one is, its content says. */
+const DESCRIBING = ["urdf", "xacro", "xml", "sdf", "mjcf", "world", "usd", "usda", "usdc", "usdz"];
+/** Meshes, and what they reference. */
+const OF_MESHES = [
+  "stl",
+  "dae",
+  "obj",
+  "gltf",
+  "glb",
+  "ply",
+  "msh",
+  "mtl",
+  "bin",
+  "png",
+  "jpg",
+  "jpeg",
+  "tga",
+  "bmp",
+  "dds",
+  "gif",
+  "tif",
+  "tiff",
+  "webp",
+  "hdr",
+  "exr",
+  "ktx2",
+  "ppm",
+  "pgm",
+];
+/** What says more of a robot, or of a folder. */
+const BESIDE = ["srdf", "yaml", "yml", "toml", "config"];
+/** Files that say what their folder is. */
+const MANIFESTS = ["package.xml", "model.config"];
+
+function ending(...endings: readonly string[][]): RegExp {
+  return new RegExp(`\\.(?:${endings.flat().join("|")})$`, "i");
+}
+
+export const MAY_DESCRIBE = /* @__PURE__ */ ending(DESCRIBING);
+/** A description, and the files that it or a mesh may name. */
+const OF_ROBOT = /* @__PURE__ */ ending(DESCRIBING, OF_MESHES, BESIDE);
+const IS_XACRO = /* @__PURE__ */ ending(["xacro"]);
+export const IS_ZIP = /* @__PURE__ */ ending(["zip"]);
+
+const SAYS_WHAT = /* @__PURE__ */ ending(["urdf", "xacro"], BESIDE);
+
+/** Whether a file says what its folder is, or what a robot is: its place is known. */
+export function hasPlace(path: string): boolean {
+  return SAYS_WHAT.test(path) || MANIFESTS.includes(path.split("/").pop() ?? path);
+}
+
+/** Maximum number of files and bytes: at most those of the program (`tests/program/file_types.rs`). */
+const MAX_FILES = 50_000;
+const MAX_BYTES = 1_000_000_000;
+/** Maximum number of files around descriptions: that of the program. */
+const MAX_DESCRIBED = 20_000;
+
+/** Throws if there are too many files or bytes. */
+export function check(files: number, bytes: number): void {
+  if (files > MAX_FILES)
+    throw new Error(`These are more than ${MAX_FILES.toLocaleString("en")} files. Drop the folder of one robot.`);
+  if (bytes > MAX_BYTES)
+    throw new Error("These files have more than 1 GB, too much for a browser. Use `urdd view` on this machine.");
+}
+
+/** Throws if descriptions have too many files around them. */
+function checkDescribed(files: number): void {
+  if (files > MAX_DESCRIBED)
+    throw new Error(
+      `These are more than ${MAX_DESCRIBED.toLocaleString("en")} files of robots. Drop the folder of one robot.`,
+    );
+}
+
+const IS_URDD =
+  /^(?:urdd\.json|(?:mesh_modules\/|link_shapes_modules\/|bevy_modules\/)?[a-z0-9_]+_module\/module\.json)$/;
+
+/** The highest folder that looks like a URDD. */
+function urddFolder(paths: readonly string[]): string | undefined {
+  const roots = new Set<string>();
+  for (const path of paths) {
+    const parts = path.split("/");
+    const depth = parts.findIndex((_, depth) => IS_URDD.test(parts.slice(depth).join("/")));
+    if (depth >= 0) roots.add(parts.slice(0, depth).join("/"));
+  }
+  const names = [...roots].sort((a, b) => a.length - b.length || (a < b ? -1 : 1));
+  return names.find((name) => !names.some((other) => other !== name && name.startsWith(`${other}/`)));
+}
+
+/** Whether an archive is one of a URDD, which is in its root or in a top-level folder. */
+export function isUrddArchive(paths: readonly string[]): boolean {
+  const folder = urddFolder(paths);
+  return folder !== undefined && !folder.includes("/");
+}
+
+/** How a USD begins that is a text. */
+export const USD_TEXT = "#usda";
 /** Bytes that are looked at of a file whose name says nothing. */
 const HEAD = 256;
 
@@ -14,7 +125,7 @@ export type Taken =
   RobotSource | { kind: "description"; files: Given[]; hasXacro: boolean } | { kind: "files"; files: Given[] };
 
 /** What a drop needs: who unpacks a .zip, and whether it is still wanted. */
-export interface Hands {
+interface Hands {
   unzip: (zip: Blob) => Promise<Given[] | null>;
   signal: AbortSignal;
 }

@@ -1,7 +1,7 @@
 /** Fixes of a report, as changes of a text. Pure: what `urdd lint --fix` makes of the same text and report. */
 
 /** `line` and `column` count from 1, columns in code points; `end_line` and `end_column` are of the first that stays. */
-export interface TextEdit {
+interface TextEdit {
   file: string;
   line: number;
   column: number;

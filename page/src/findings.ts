@@ -6,7 +6,7 @@ import type { RobotModel } from "./model";
 import type { State } from "./state";
 
 const RANK: Record<Severity | "unverified", number> = { unverified: 0, info: 1, warning: 2, error: 3 };
-export type Worst = Severity | "unverified";
+type Worst = Severity | "unverified";
 
 const LINK =
   /^\/(?:links|links_in_chain|link_meshes|link_hulls|link_pieces|(?:full|decomposition)_(?:obbs|bounding_spheres))\/(\d+)/;
@@ -88,7 +88,7 @@ export function toMend(findings: readonly Finding[]): Finding[] {
 }
 
 /** The links that a finding names. */
-export function linksOf(robot: RobotModel, finding: Finding): Set<number> {
+function linksOf(robot: RobotModel, finding: Finding): Set<number> {
   return new Set(places(finding).flatMap((place) => linkOf(robot, place) ?? []));
 }
 
@@ -113,7 +113,7 @@ function worstOf(robot: RobotModel, report: Report | null, counts: (finding: Fin
 }
 
 /** A rule with findings at links: how many links, and whether they are too many to stand out. */
-export interface NamedLinks {
+interface NamedLinks {
   code: string;
   links: Set<number>;
   isSystematic: boolean;

@@ -4,8 +4,8 @@ import type { App } from "./app";
 import { Lines, apply, changesOf } from "./edits";
 import type { Fix } from "./edits";
 import type { Place } from "./findings";
-import { ofText } from "./here/draft";
-import type { Draft } from "./here/draft";
+import { ofText } from "./state";
+import type { Draft } from "./state";
 
 /** The name of the draft's file. */
 export function fileName({ path }: Draft): string {
@@ -33,9 +33,9 @@ export function fixesOf(draft: Draft | null, { fixes = [] }: Place): Fix[] {
 export function mend(app: App, fix: Fix): void {
   const { report } = app.store.now;
   const draft = ofText(app.store.now.draft);
-  if (!draft || !app.drafting) return;
+  if (!draft) return;
   const isOld = report.report?.text !== draft.text;
   const changes = isOld ? null : changesOf(fix, new Lines(draft.text), (file) => isDraft(draft, file));
-  if (changes) app.drafting.edit(apply(draft.text, changes));
+  if (changes) app.site.here?.edit(apply(draft.text, changes));
   else app.note("The text has changed: wait for its findings.");
 }

@@ -1,10 +1,10 @@
 /** The view in a link's fragment: `#r=h1&q=0,0.5&t=Proximity`. */
 
-import { IS_ZIP, MAY_DESCRIBE } from "./endings";
-import { LAYERS, OVERLAYS, TABS } from "./state";
-import type { Layer, LayerKind, OverlayKind, Pair, Tab } from "./state";
+import { IS_ZIP, MAY_DESCRIBE } from "./drop";
 import { SHAPE_KINDS } from "./engine/protocol";
 import type { ShapeKind } from "./engine/protocol";
+import { LAYERS, OVERLAYS, TABS } from "./state";
+import type { Layer, LayerKind, OverlayKind, Pair, Tab } from "./state";
 
 /** An empty list, as opposed to an omitted one. */
 const NONE = "none";

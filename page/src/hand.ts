@@ -101,6 +101,6 @@ export class Hand {
       link === null ? null : joint === null ? { kind: "link", index: link } : { kind: "joint", index: joint },
     );
     view.canvas.style.cursor = joint === null ? "" : "grab";
-    view.canvas.title = link === null || !robot ? "" : name(robot.links[link]?.name ?? "");
+    view.canvas.title = link === null || !robot ? "" : name(robot.nameOf(link));
   }
 }

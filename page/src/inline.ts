@@ -1,8 +1,8 @@
 /** The data in a page in one file: `<script type="text/plain" id="...">` in base64, deflated; the module by brotli. */
 
 import { inflateSync } from "fflate";
+import type { RobotSource } from "./engine/client";
 import type { Explanation, Report } from "./engine/protocol";
-import type { RobotSource } from "./engine/calls";
 import type { Entry } from "./model";
 import type { Showing } from "./showing";
 

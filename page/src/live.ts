@@ -1,17 +1,20 @@
-/** Polls the server: whether it answers, and whether the files of the open robot changed. */
+/** Follows `urdd view`: whether it answers, whether the files of the open robot changed, and what programs send to show. */
 
 import type { App } from "./app";
+import type { RobotModel } from "./model";
+import type { Showing } from "./showing";
 import { Gone, Refused } from "./site";
 import type { State } from "./state";
-import { States } from "./states";
+import { Trajectory } from "./trajectory";
 import { fill, h } from "./ui/dom";
-import { lines } from "./ui/format";
+import { lines, count } from "./ui/format";
 
 /** Pauses between polls, ms. Whoever edits a URDF waits for the picture. */
 const PERIOD = 1000;
 const PERIOD_OF_URDF = 300;
 const GONE = "gone";
 
+/** Polls the server. */
 export function follow(app: App): void {
   const states = new States(app);
   /** The last change that was reported to the user. */
@@ -99,4 +102,80 @@ export function serverLine(app: App): HTMLElement {
     if (line.textContent !== text) fill(line, text);
   });
   return line;
+}
+
+/** Pause before another attempt to connect, ms. */
+const PAUSE = 1000;
+
+/**
+ * What a program sends of the open robot: `urdd view --follow`, Python, or any other. Follows it while its window is visible: browsers allow few connections to a server, in all windows
+ * together.
+ */
+class States {
+  private robot: RobotModel | null = null;
+  private stopping = new AbortController();
+
+  constructor(private readonly app: App) {
+    document.addEventListener("visibilitychange", () => {
+      const { robot } = this;
+      this.stop();
+      if (robot) this.follow(robot);
+    });
+  }
+
+  /** Follows a robot to which a program sends configurations. */
+  follow(robot: RobotModel): void {
+    if (this.robot === robot && !this.stopping.signal.aborted) return;
+    this.stop();
+    this.robot = robot;
+    if (document.hidden) return;
+    this.stopping = new AbortController();
+    void this.listen(robot, this.stopping.signal);
+  }
+
+  private stop(): void {
+    this.stopping.abort();
+    this.robot = null;
+  }
+
+  private async listen(robot: RobotModel, signal: AbortSignal): Promise<void> {
+    const { app } = this;
+    let refused = -1;
+    while (!signal.aborted && app.store.now.robot === robot) {
+      try {
+        for await (const line of app.site.states(robot.entry, signal)) {
+          if (app.store.now.robot !== robot) break;
+          const wrong = take(app, robot, JSON.parse(line) as Showing);
+          if (wrong !== null && wrong !== refused) {
+            refused = wrong;
+            app.note(misfit(robot, wrong));
+          }
+        }
+      } catch {
+        // The server ended, or the robot is another one: the poll tells.
+      }
+      await new Promise((resolve) => setTimeout(resolve, PAUSE));
+    }
+    if (this.robot === robot) this.stop();
+  }
+}
+
+/** Shows what a program sends. Returns the number of values of a configuration that is not one of this robot; null if all are. */
+export function take(app: App, robot: RobotModel, { q, world, path }: Showing): number | null {
+  const { length } = robot.dofs;
+  const wrong = [...(q ? [q] : []), ...(path?.rows ?? [])].find((row) => row.length !== length);
+  if (wrong) return wrong.length;
+  if (world) app.store.set({ world });
+  if (q) app.follow(q);
+  if (path !== undefined) {
+    const made =
+      path && new Trajectory("path", Float64Array.from(path.times), Float64Array.from(path.rows.flat()), length);
+    app.store.set({ path: made });
+  }
+  return null;
+}
+
+/** What is said of configurations of another robot. */
+export function misfit(robot: RobotModel, values: number): string {
+  return `A program sends ${count(values, "value")}; this robot has ${count(robot.dofs.length, "DOF")}.`;
 }

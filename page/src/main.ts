@@ -1,7 +1,7 @@
 /** Assembles the page, and opens the view of the address. */
 
 import { Address } from "./address";
-import { App, message } from "./app";
+import { App } from "./app";
 import { comparing } from "./comparing";
 import { dropped, chosen } from "./drop";
 import { Engine } from "./engine/client";
@@ -10,9 +10,8 @@ import { Here } from "./here/here";
 import { savingHere } from "./here/saving";
 import * as inline from "./inline";
 import { keys } from "./keys";
-import { brokenLine, follow, serverLine } from "./live";
+import { brokenLine, follow, serverLine, misfit, take } from "./live";
 import { saveDialog } from "./making";
-import { named } from "./named";
 import { missingFiles } from "./panels/absent";
 import { findings } from "./panels/findings";
 import { gallery } from "./panels/gallery";
@@ -26,14 +25,14 @@ import { said, status } from "./panels/status";
 import { text } from "./panels/text";
 import { Timeline, trajectoryIn } from "./panels/timeline";
 import { tree } from "./panels/tree";
-import { misfit, take } from "./shown";
-import { Site } from "./site";
+import { named, Site } from "./site";
 import type { Mode } from "./site";
 import { Stage } from "./stage";
 import { button, byId, fill, h } from "./ui/dom";
-import { offer } from "./ui/offer";
-import { startTheme } from "./ui/theme";
+import { offer } from "./ui/files";
+import { message } from "./ui/format";
 import { tabs } from "./ui/tabs";
+import { startTheme } from "./ui/theme";
 
 /** Width of the pictures on cards, pixels. */
 const CARD = 320;

@@ -1,10 +1,9 @@
 /** Robots that `urdd view` generates: their progress, and saving them. */
 
 import type { App } from "./app";
-import { message } from "./app";
 import type { Entry } from "./model";
 import { button, fill, h } from "./ui/dom";
-import { lines, name } from "./ui/format";
+import { message, lines, name } from "./ui/format";
 
 /** Pauses between polls while a robot is generated, and after that failed, ms. */
 const SOON = 50;

@@ -1,10 +1,8 @@
 /** An open robot: the engine's data, and what the page derives from it. */
 
+import type { NamedConfiguration, RobotPart, SphereLevel } from "./document";
+import type { RobotSource } from "./engine/client";
 import type { About, Dof, FileEntry, Joint, Link } from "./engine/protocol";
-import type { RobotSource } from "./engine/calls";
-import type { NamedConfiguration } from "./configurations";
-import type { RobotPart } from "./parts";
-import type { SphereLevel } from "./spheres";
 
 /** An entry of `robots.json`. */
 export interface Entry {
@@ -113,6 +111,15 @@ export class RobotModel {
 
   link(name: string): number {
     return this.links.findIndex((link) => link.name === name);
+  }
+
+  nameOf(link: number): string {
+    return this.links[link]?.name ?? "";
+  }
+
+  /** The link that a part is, or that it moves. */
+  linkOf(part: Part | null): number | null {
+    return part?.kind === "joint" ? (this.joints[part.index]?.child ?? null) : (part?.index ?? null);
   }
 
   /** The joints from a link to the root, the link's own first. */

@@ -1,13 +1,12 @@
 /** The source of the page's robots: `urdd view`, a static site, or a file with a robot inside. */
 
+import type { Given } from "./drop";
+import type { RobotSource } from "./engine/client";
 import type { Explanation, FileEntry, Report } from "./engine/protocol";
-import type { RobotSource } from "./engine/calls";
-import type { Keeper } from "./here/keeper";
 import * as inline from "./inline";
 import { unknown } from "./model";
-import { named } from "./named";
+import { keep, kept } from "./ui/storage";
 import type { Entry } from "./model";
-import { keptToken } from "./token";
 
 export type Mode = "live" | "static" | "inline";
 
@@ -38,7 +37,7 @@ export class Site {
   /** The robots, requested with a link's token, or with the one that this browser remembers. */
   async known(token: string | null): Promise<Entry[]> {
     if (this.mode !== "live") return this.robots();
-    const tokens = new Set([token, this.token, keptToken()].filter((known) => known !== null));
+    const tokens = new Set([token, this.token, kept(KEY)].filter((known) => known !== null));
     for (const known of tokens) {
       this.token = known;
       try {
@@ -170,4 +169,37 @@ export class Site {
     if (!response.ok) throw new Error(`${path}: the server answered ${response.status}`);
     return (await response.json()) as unknown;
   }
+}
+
+/** Who has the robots that this page makes: the site asks it as it asks a server, and a person changes their texts. */
+export interface Keeper {
+  /** The robots. */
+  entries(): Entry[];
+  source(entry: Entry): RobotSource;
+  report(entry: Entry): Promise<Report>;
+  /** How far it is. Asking begins to make it. */
+  state(entry: Entry): Entry;
+  /** Takes a text of the one that is open: the findings follow at once, the picture after a pause. */
+  edit(text: string): void;
+  /** The text was saved as a file. */
+  saved(): void;
+  /** Takes files that were missing. */
+  add(files: Given[]): void;
+}
+
+/** The path of a file of the page. A site names files by their hash, listed in `<meta name="urdd-files">`. */
+export function named(name: string): string {
+  const words = document.querySelector<HTMLMetaElement>('meta[name="urdd-files"]')?.content.split(" ") ?? [];
+  const place = words.findIndex((word, k) => k % 2 === 0 && word === name);
+  return (place >= 0 && words[place + 1]) || name;
+}
+
+/**
+ * All tabs of this browser share the token. Storage is separate for each address and port, so no other page or server of this
+ * machine can read it.
+ */
+const KEY = "urdd-token";
+
+export function keepToken(token: string | null): void {
+  if (token !== null) keep(KEY, token);
 }

@@ -2,11 +2,10 @@
 
 import { strToU8, zipSync } from "fflate";
 import type { App } from "./app";
-import { message } from "./app";
-import { partial } from "./state";
-import { count } from "./ui/format";
-import { offer } from "./ui/offer";
 import type { PairDistance, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
+import { partial } from "./state";
+import { offer } from "./ui/files";
+import { message, count } from "./ui/format";
 
 /** More pairs than any robot has. */
 const ALL = 1e9;
@@ -21,7 +20,7 @@ export async function load(app: App, shapes: ShapeKind): Promise<void> {
   const edits = skips.dirty ? skips.answer?.edits : null;
   try {
     const answer = edits
-      ? await app.engine.ask("editSkips", { kind: shapes, edits, skipped_reasons: null })
+      ? await app.engine.ask("editSkips", { kind: shapes, edits })
       : await app.engine.ask("skips", { kind: shapes });
     app.store.set({ skips: { ...app.store.now.skips, answer, error: null } });
   } catch (error) {
@@ -38,10 +37,8 @@ export async function decide(app: App, more: SkipEdit[]): Promise<void> {
     app.note(error ?? "A legacy URDD has no edits: generate a new URDD to edit skips.");
     return;
   }
-  const same = (a: SkipEdit, b: SkipEdit): boolean =>
-    (a.link_a === b.link_a && a.link_b === b.link_b) || (a.link_a === b.link_b && a.link_b === b.link_a);
   // Only the last edit of a pair counts.
-  const kept = edits.filter((edit) => !more.some((other) => same(edit, other)));
+  const kept = edits.filter((edit) => !more.some(({ link_a, link_b }) => isOf(edit, [link_a, link_b])));
   await change(app, [...kept, ...more], [...app.store.now.skips.before, edits]);
   if (app.store.now.tab !== "Skips") {
     app.note(`${count(more.length, "pair")} of links edited. Save or undo in Skips.`);
@@ -52,7 +49,7 @@ async function change(app: App, edits: SkipEdit[], before: SkipEdit[][]): Promis
   const { skips } = app.store.now;
   if (!skips.answer) return;
   try {
-    const answer = await app.engine.ask("editSkips", { kind: skips.answer.kind, edits, skipped_reasons: null });
+    const answer = await app.engine.ask("editSkips", { kind: skips.answer.kind, edits });
     app.store.set({ skips: { ...app.store.now.skips, answer, error: null, before, dirty: before.length > 0 } });
   } catch (error) {
     app.note(`The edit failed: ${message(error)}`);
@@ -123,14 +120,18 @@ export async function nearer(
     app.note("This pair has no such distance: it is skipped, or has no mean.");
     return;
   }
-  const name = (link: number): string => robot.links[link]?.name ?? "";
   const found = [...least.values()].filter((pair) => pair.value < own.value);
   if (found.length === 0) app.note("No other pair is nearer.");
   else
     await decide(
       app,
-      found.map(({ links: [a, b] }) => ({ link_a: name(a), link_b: name(b), skip: true, reason })),
+      found.map(({ links: [a, b] }) => ({ link_a: robot.nameOf(a), link_b: robot.nameOf(b), skip: true, reason })),
     );
+}
+
+/** Whether an edit is of these two links, in any order. */
+export function isOf({ link_a, link_b }: SkipEdit, [a, b]: readonly [string, string]): boolean {
+  return (link_a === a && link_b === b) || (link_a === b && link_b === a);
 }
 
 export function isSkipped(answer: SkipsAnswer, i: number, j: number): boolean {

@@ -3,34 +3,30 @@
 import { Vector3 } from "three";
 import type { Box3 } from "three";
 import type { App } from "./app";
-import { message } from "./app";
+import { Beside } from "./comparing";
 import type { RobotModel } from "./model";
-import { pairOf, same as samePair } from "./panels/proximity";
-import { looks } from "./scene/dress";
-import { Beside } from "./beside";
-import { Closings } from "./scene/closings";
-import { Ghosts } from "./scene/ghosts";
-import { Gizmo, GIZMOS } from "./scene/gizmo";
-import { Ground } from "./scene/ground";
-import { load } from "./scene/layers";
-import { Obstacles } from "./scene/obstacles";
-import { Overlays } from "./scene/overlays";
-import { Measure } from "./scene/measure";
-import { prepare } from "./scene/pick";
-import { RobotScene } from "./scene/robot";
-import { Names } from "./scene/names";
-import { rimColor } from "./scene/rim";
-import { Segment } from "./scene/segment";
-import { View } from "./scene/view";
 import { absent } from "./panels/absent";
 import { chooseOther, comparison } from "./panels/comparison";
+import { pairOf, same as samePair } from "./panels/proximity";
+import { Closings } from "./scene/closings";
+import { Gizmo, GIZMOS } from "./scene/gizmo";
+import { Ground } from "./scene/ground";
+import { load, rimColor } from "./scene/layers";
+import { Measure } from "./scene/measure";
+import { Names } from "./scene/names";
+import { Obstacles } from "./scene/obstacles";
+import { Overlays } from "./scene/overlays";
+import { prepare } from "./scene/pick";
+import { looks, Ghosts, RobotScene } from "./scene/robot";
+import { Segment } from "./scene/segment";
+import { View } from "./scene/view";
 import { drawnLayers, ghosted, LAYERS } from "./state";
 import type { LayerKind, State } from "./state";
 import { button, h } from "./ui/dom";
-import { length } from "./ui/format";
+import { message, length } from "./ui/format";
 import { color } from "./ui/theme";
 
-export const DIRECTIONS = {
+const DIRECTIONS = {
   fit: null,
   front: new Vector3(1, 0, 0.12),
   side: new Vector3(0, -1, 0.12),

@@ -1,20 +1,45 @@
 /** The state of the page, and listeners for its changes. */
 
-import { SHAPE_KINDS } from "./engine/protocol";
-import type { LoopErrors, ProximityAnswer, Report, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
-import type { AbsentMesh } from "./absent";
-import type { Contacts } from "./contacts";
 import type { Compared } from "./compared";
-import { ofText } from "./here/draft";
-import type { Draft } from "./here/draft";
+import type { Contacts } from "./contacts";
+import { SHAPE_KINDS } from "./engine/protocol";
+import type {
+  Description,
+  LoopErrors,
+  ProximityAnswer,
+  Report,
+  ShapeKind,
+  SkipEdit,
+  SkipsAnswer,
+} from "./engine/protocol";
+import type { AbsentMesh } from "./missing";
 import type { Entry, Part, RobotModel } from "./model";
 import type { Obstacle } from "./showing";
 import type { Trajectory } from "./trajectory";
 import { keptUnits } from "./ui/format";
 import type { Units } from "./ui/format";
 
+/** The description that this page makes a robot of, as a text that a person may change. */
+export interface Draft {
+  /** Its path among the dropped files. */
+  path: string;
+  format: Exclude<Description["format"], "xacro">;
+  /** The text as it is now; null of a binary file. */
+  text: string | null;
+  /** Whether it differs from what was dropped, or saved last. */
+  isChanged: boolean;
+}
+
+/** A draft that is a text. */
+export type TextDraft = Draft & { text: string };
+
+/** The draft, if it is a text. */
+export function ofText(draft: Draft | null): TextDraft | null {
+  return draft && draft.text !== null ? { ...draft, text: draft.text } : null;
+}
+
 /** The levels of spheres that can be drawn; a URDD has at most these (SPEC 8.9.2). */
-export const SPHERE_LEVELS = [
+const SPHERE_LEVELS = [
   "level-0",
   "level-1",
   "level-2",
@@ -32,7 +57,7 @@ export const SPHERE_LEVELS = [
   "level-14",
   "level-15",
 ] as const;
-export type SphereLayer = (typeof SPHERE_LEVELS)[number];
+type SphereLayer = (typeof SPHERE_LEVELS)[number];
 
 /** Layers: the URDF's own geometry, the plain meshes, the collision shapes, and the levels of spheres. */
 export const LAYERS = ["original", "collision", "plain", ...SHAPE_KINDS, ...SPHERE_LEVELS] as const;

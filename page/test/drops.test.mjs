@@ -352,7 +352,7 @@ inPage(set, "Back leads to the gallery and Forward to the robot, and leaving ask
   await page.goForward();
   await whole(page, "one");
   const text = urdf("one", box(1), box(2), box(3));
-  await page.evaluate((text) => globalThis.urdd.app.drafting.edit(text), text);
+  await page.evaluate((text) => globalThis.urdd.app.site.here.edit(text), text);
   await state(page, "robot", (robot) => robot?.links.length === 3);
   await page.goBack();
   await gallery(page);
@@ -469,7 +469,7 @@ inPage(
     await dropOn(page, place("one.urdf"));
     await whole(page, "one");
     const text = urdf("one", box(1), box(2), box(3));
-    await page.evaluate((text) => globalThis.urdd.app.drafting.edit(text), text);
+    await page.evaluate((text) => globalThis.urdd.app.site.here.edit(text), text);
     await state(page, "robot", (robot) => robot?.links.length === 3);
     await whole(page, "one");
     for (const name of ["notes.txt", "folder", "broken.zip", "none.zip", "sheet.xml", "urdd.json", "extra.stl"]) {

@@ -166,7 +166,7 @@ inPage(set, "a text is mended and edited, the picture follows, and the edited UR
   await dropped(page, urdf);
   await page.getByText(/Generation of broken failed: broken\.urdf/).waitFor();
   await state(page, "report", (value) => value.report?.urdds[0].verdict === "fail");
-  const edit = (text) => page.evaluate((text) => globalThis.urdd.app.drafting.edit(text), text);
+  const edit = (text) => page.evaluate((text) => globalThis.urdd.app.site.here.edit(text), text);
   await edit(good);
   await whole(page, "broken");
   const { report } = await state(page, "report", (value) => value.report !== null);

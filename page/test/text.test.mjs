@@ -36,7 +36,7 @@ async function draft(page, text, { format = "urdf", path = `arm/${NAME}`, first 
     ({ text, format, path, first }) => {
       const { app } = globalThis.urdd;
       const { store } = app;
-      app.drafting = {
+      Object.assign(app.site.here, {
         edit(text) {
           store.set({ draft: { ...store.now.draft, text, isChanged: true } });
           void globalThis.lintText(text).then((report) => {
@@ -44,7 +44,7 @@ async function draft(page, text, { format = "urdf", path = `arm/${NAME}`, first 
           });
         },
         saved: () => store.set({ draft: { ...store.now.draft, isChanged: false } }),
-      };
+      });
       store.set({
         draft: { path, format, text, isChanged: false },
         report: { report: first, error: null, busy: null },
@@ -115,7 +115,7 @@ inPage(set, "a tooltip says what a program does with a part, and mends it where 
   // Nobody lints this edit, so the report stays that of the text before.
   await page.evaluate(() => {
     const { app } = globalThis.urdd;
-    app.drafting.edit = (text) => app.store.set({ draft: { ...app.store.now.draft, text, isChanged: true } });
+    app.site.here.edit = (text) => app.store.set({ draft: { ...app.store.now.draft, text, isChanged: true } });
   });
   await content(page).press("Control+Home");
   await page.keyboard.type("<!-- \u{1F916} -->\n");
@@ -247,7 +247,7 @@ inPage(set, "a text of one long line with 100,000 findings can be changed, and a
   await draft(page, text, { first });
   await page.evaluate(() => {
     const { app } = globalThis.urdd;
-    app.drafting.edit = (text) => app.store.set({ draft: { ...app.store.now.draft, text, isChanged: true } });
+    app.site.here.edit = (text) => app.store.set({ draft: { ...app.store.now.draft, text, isChanged: true } });
   });
   await open(page);
   await panel(page).getByText("1: 1,000 findings").waitFor();

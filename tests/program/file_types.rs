@@ -141,7 +141,7 @@ fn quoted(file: &str, begin: &str) -> BTreeSet<String> {
 /// The page chooses from a drop before it asks the program: its lists are those of the program.
 #[test]
 fn the_page_takes_the_same_endings() {
-    let page = |list: &str| quoted("page/src/endings.ts", &format!("const {list} = ["));
+    let page = |list: &str| quoted("page/src/drop.ts", &format!("const {list} = ["));
     // All but what belongs to a robot, so that a new kind is not left out.
     let mut describing = endings(&[]);
     endings(&["Srdf", "Archive", "Document"]).iter().for_each(|other| {
@@ -177,7 +177,7 @@ fn visual_studio_code_has_the_endings_of_urdf_and_xacro() {
 /// A browser may take less than the program, and not more.
 #[test]
 fn the_page_takes_no_more_than_the_program() {
-    let page = source("page/src/given.ts");
+    let page = source("page/src/drop.ts");
     let of = |name: &str| -> u64 {
         let (_, rest) = page.split_once(&format!("const {name} = ")).expect("a limit");
         let (number, _) = rest.split_once(';').expect("an end");

@@ -77,9 +77,8 @@ const JSON: &[(&str, &str)] = &[
     ("src/cli/configurations.rs", "a line of a file within MAX_BYTES"),
     ("src/cli/conformance/common.rs", "MAX_LOG_LINE"),
     ("wasm/src/export.rs", "the page's own"),
-    ("wasm/src/generate.rs", "the page's own"),
-    ("wasm/src/import.rs", "the page's own"),
     ("wasm/src/lint.rs", "the page's own"),
+    ("wasm/src/make.rs", "the page's own"),
     ("wasm/src/robot.rs", "the page's own"),
     ("wasm/src/spheres.rs", "the page's own"),
 ];
@@ -211,11 +210,11 @@ fn the_page_parses_xml_in_one_place() {
         }
     }
     assert!(sources > 50, "{sources}");
-    assert_eq!(named, [repository().join("page/src/here/missing.ts")], "{WHAT_TO_DO}");
+    assert_eq!(named, [repository().join("page/src/missing.ts")], "{WHAT_TO_DO}");
     let text = fs::read_to_string(&named[0]).expect("a source");
     assert!(text.contains("MAX_TEXT = 4e6;") && text.contains("MAX_NAMES = 1000;"));
     let page = fs::read_to_string(repository().join("docs/security.md")).expect("the page");
-    let row = "DOMParser) | Only `page/src/here/missing.ts`. At most 4,000,000 characters and 1,000 names";
+    let row = "DOMParser) | Only `page/src/missing.ts`. At most 4,000,000 characters and 1,000 names";
     assert!(page.contains(row), "{WHAT_TO_DO}");
 }
 
@@ -242,9 +241,9 @@ const NAMED_FILES: &[(&str, &str)] = &[
         "what says of loops, which a person names, or beside the URDF; 1 MiB",
     ),
     ("crates/urdd-source/src/packages.rs", "`package.xml`; 1 MiB"),
+    ("wasm/src/about.rs", "a mesh that was given to the page, for its picture"),
     ("wasm/src/around.rs", "descriptions that were dropped; 64 MiB"),
     ("wasm/src/files.rs", "what was given to the page, for the page"),
-    ("wasm/src/mesh.rs", "a mesh that was given to the page, for its picture"),
     ("wasm/src/robot.rs", "the files of a URDD that was given to the page"),
 ];
 

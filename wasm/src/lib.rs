@@ -10,7 +10,6 @@ mod about;
 mod answer;
 #[cfg(feature = "lint")]
 mod around;
-mod asked;
 #[cfg(feature = "robot")]
 mod bodies;
 #[cfg(feature = "robot")]
@@ -20,19 +19,15 @@ mod explain;
 #[cfg(feature = "make")]
 mod export;
 mod files;
-#[cfg(feature = "make")]
-mod generate;
-#[cfg(feature = "make")]
-mod import;
 #[cfg(feature = "robot")]
 mod inverse;
 #[cfg(feature = "lint")]
 mod lint;
 #[cfg(feature = "robot")]
 mod loops;
+#[cfg(feature = "make")]
+mod make;
 mod memory;
-#[cfg(feature = "robot")]
-mod mesh;
 #[cfg(feature = "robot")]
 mod model;
 #[cfg(feature = "robot")]

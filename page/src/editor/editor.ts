@@ -28,7 +28,6 @@ import {
 import type { ViewUpdate } from "@codemirror/view";
 import { Lines, outer, safeChanges } from "../edits";
 import type { Change } from "../edits";
-import { LineEnds } from "./line_ends";
 import { look } from "./look";
 import { marksOf } from "./marks";
 import type { Found, Mark, Remedy } from "./marks";
@@ -276,4 +275,38 @@ export class Editor {
     }
     if (docChanged || selectionSet || transactions.some(({ effects }) => effects.length > 0)) this.owner.moved();
   }
+}
+
+type Kind = "LF" | "CRLF" | "mixed";
+
+/** Line ends of a file: the editor's text has LF, where all are alike. */
+class LineEnds {
+  private readonly kind: Kind;
+  readonly extension: Extension;
+
+  constructor(text: string) {
+    this.kind = kindOf(text);
+    // Where they are mixed, every CR stays, and is shown.
+    this.extension = this.kind === "mixed" ? EditorState.lineSeparator.of("\n") : [];
+  }
+
+  /** Whether a text has the same kind. */
+  fits(text: string): boolean {
+    return kindOf(text) === this.kind;
+  }
+
+  /** A text of a file as the editor has it. */
+  inEditor(text: string): string {
+    return this.kind === "CRLF" ? text.replaceAll("\r\n", "\n") : text;
+  }
+
+  /** The editor's text as the file has it. */
+  of({ doc }: EditorState): string {
+    return doc.sliceString(0, doc.length, this.kind === "CRLF" ? "\r\n" : "\n");
+  }
+}
+
+function kindOf(text: string): Kind {
+  if (!text.includes("\r")) return "LF";
+  return /\r(?!\n)|(?<!\r)\n/.test(text) ? "mixed" : "CRLF";
 }

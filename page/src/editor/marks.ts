@@ -7,10 +7,10 @@ import { h, prose } from "../ui/dom";
 import { name } from "../ui/format";
 
 /** More marks than anybody reads; the worst come first. */
-export const MAX_MARKS = 1000;
+const MAX_MARKS = 1000;
 
 const RANK = { error: 0, warning: 1, info: 2 } as const;
-export type Severity = keyof typeof RANK;
+type Severity = keyof typeof RANK;
 
 /** A finding at a place of the text. */
 export interface Found {

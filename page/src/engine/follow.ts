@@ -7,7 +7,7 @@ const STEP = 0.1;
 const MAX_STEPS = 64;
 
 /** The nearest closed configuration, where these DOFs keep their values. */
-export type Close = (q: number[], held: number[]) => ClosedLoops;
+type Close = (q: number[], held: number[]) => ClosedLoops;
 
 /**
  * Goes toward `to` in small steps, so that the robot stays on its branch of closed configurations. What does not follow goes

@@ -1,21 +1,23 @@
-/** A worker that answers queries, one after another: it is started when it is first asked, and again after it crashed. */
+/** A worker that owns a module and answers queries, one after another: how the page starts and asks it, how it answers, and its module. */
 
 import type { Progress } from "../../../wasm/npm/index";
+import { Urdd } from "../../../wasm/npm/module.mjs";
+import { message } from "../ui/format";
 
 export type { Progress };
 
 const STOPPED = "stopped";
 
 /** Queries and answers, by name; `init` is the first of each worker. */
-export type CallsOf<C> = { [K in keyof C]: [unknown, unknown] };
+type CallsOf<C> = { [K in keyof C]: [unknown, unknown] };
 
-export interface Request {
+interface Request {
   id: number;
   call: string;
   question: unknown;
 }
 
-export type Answer =
+type Answer =
   { id: number; value: unknown } | { id: number; error: string; trapped: boolean } | { id: number; progress: Progress };
 
 interface Waiting {
@@ -44,6 +46,7 @@ function underPolicy(script: string): Promise<string> {
 /** The module crashed: the worker is replaced. */
 export class Trapped extends Error {}
 
+/** The page's side: starts the worker when it is first asked, and again after it crashed. */
 export class Link<C extends CallsOf<C> & { init: [unknown, unknown] }> {
   private worker: Worker | null = null;
   private readonly waiting = new Map<number, Waiting>();
@@ -131,4 +134,81 @@ export class Link<C extends CallsOf<C> & { init: [unknown, unknown] }> {
     for (const waiting of this.waiting.values()) waiting.reject(error);
     this.waiting.clear();
   }
+}
+
+export type OnProgress = (done: number, of: number, what: string) => void;
+
+export type Handlers<C extends CallsOf<C>> = {
+  [K in keyof C]: (question: C[K][0], onProgress: OnProgress) => C[K][1] | Promise<C[K][1]>;
+};
+
+/** The worker's side: answers queries. Those that come while one of `first` is answered wait for it. */
+export function serve<C extends CallsOf<C>>(handlers: Handlers<C>, first: (keyof C)[]): void {
+  const scope = self as unknown as {
+    postMessage(message: Answer, transfer: Transferable[]): void;
+    addEventListener(type: "message", listener: (event: MessageEvent<Request>) => void): void;
+  };
+  let opening: Promise<unknown> = Promise.resolve();
+  const answer = async ({ id, call, question }: Request): Promise<void> => {
+    try {
+      const handler = handlers[call as keyof C];
+      const onProgress: OnProgress = (done, of, what) => scope.postMessage({ id, progress: { done, of, what } }, []);
+      const answered = opening.then(() => handler(question as C[keyof C][0], onProgress));
+      if (first.includes(call as keyof C)) opening = answered.catch(() => undefined);
+      const value = await answered;
+      scope.postMessage({ id, value }, buffers(value));
+    } catch (error) {
+      const trapped = error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
+      scope.postMessage({ id, error: message(error), trapped }, []);
+    }
+  };
+  scope.addEventListener("message", (event) => void answer(event.data));
+}
+
+/** The buffers of an answer, which go to the page without a copy. */
+function buffers(value: unknown): Transferable[] {
+  if (value instanceof ArrayBuffer) return [value];
+  if (ArrayBuffer.isView(value)) return [value.buffer as ArrayBuffer];
+  if (Array.isArray(value)) return value.flatMap(buffers);
+  const positions = (value as { positions?: Float32Array } | null)?.positions;
+  return positions ? buffers(positions) : [];
+}
+
+/** The module, which the code of the npm package speaks to. */
+export type { Urdd };
+
+/** Compiles a module of this address, or of these bytes. */
+export async function compiled(source: BufferSource | Promise<Response>): Promise<WebAssembly.Module> {
+  if (!(source instanceof Promise)) return WebAssembly.compile(source);
+  const response = await source;
+  if (!response.ok) throw new Error(`the engine (${response.url}) cannot be loaded: status ${response.status}`);
+  // Some file servers do not send `application/wasm`, which streaming requires.
+  const streams = response.headers.get("content-type") === "application/wasm";
+  return streams ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+}
+
+export async function started(module: WebAssembly.Module): Promise<Urdd> {
+  const urdd = await Urdd.of(module);
+  urdd.noMemory = "not enough memory for this robot";
+  // A number that is not finite is the module's to refuse: here, a RangeError stands for a crash.
+  urdd.write = JSON.stringify;
+  return urdd;
+}
+
+/** The content of files, which are closed. The browser keeps it outside of the page's memory. */
+export function contents(module: Urdd, files: number): { path: string; file: Blob }[] {
+  const { changed } = changes(module, files, 0);
+  module.closeFiles(files);
+  return changed;
+}
+
+/** The paths of files, and the content of those that others of before do not have. */
+export function changes(
+  module: Urdd,
+  files: number,
+  before: number,
+): { paths: string[]; changed: { path: string; file: Blob }[] } {
+  const paths = module.list(files).files.map(({ path }) => path);
+  const changed = before === 0 ? paths : module.changed(files, before);
+  return { paths, changed: changed.map((path) => ({ path, file: new Blob([module.read(files, path)]) })) };
 }

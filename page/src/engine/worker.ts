@@ -1,15 +1,143 @@
-/** The worker: it owns the module, reads files and answers queries, one after another. */
+/** The worker: it owns the module, reads a robot's files and answers queries, one after another. */
 
 import { decompress } from "brotli/decompress";
-import { check, isUrddArchive } from "../given";
+import { check, isUrddArchive } from "../drop";
+import type { RobotSource, Calls, LinkMesh } from "./client";
+import { message } from "../ui/format";
 import { follow } from "./follow";
-import { compiled, contents, started } from "./module";
-import type { Urdd } from "./module";
-import { serve } from "./serve";
-import type { Handlers, OnProgress } from "./serve";
-import { Store } from "./store";
-import type { About, Clearances, ClosedLoops, CollisionModel, MeshPaths, ShapeKind } from "./protocol";
-import type { Calls, LinkMesh } from "./calls";
+import { compiled, contents, started, serve } from "./link";
+import type { Urdd, Handlers, OnProgress } from "./link";
+import type { FileEntry, About, Clearances, ClosedLoops, CollisionModel, MeshPaths, ShapeKind } from "./protocol";
+
+/** Number of files fetched at once. */
+const AT_ONCE = 8;
+
+const CLOSED = "another robot was opened";
+
+/** The modules that a query needs. */
+const MODULES = {
+  about: [
+    "urdf",
+    "chain",
+    "dof",
+    "bounds",
+    "loops",
+    "original_meshes",
+    "plain_meshes",
+    "convex_hull_meshes",
+    "convex_decomposition_meshes",
+  ],
+  shapes: ["link_shapes_approximations"],
+  pairs: ["link_shapes_skips", "link_shapes_simple_skips", "link_shapes_distance_statistics"],
+  model: ["self_collision_model"],
+  samples: ["kinematics_samples"],
+};
+
+/** The files of one robot, and those that the module already has. */
+class Store {
+  private open: number | null;
+  private readonly given = new Set<string>();
+  private readonly faults = new Map<string, string>();
+  private readonly sizes: Map<string, number>;
+  private readonly local = new Map<string, Blob>();
+  /** The path of a file on a site, if it differs from its name. */
+  private readonly places = new Map<string, string>();
+
+  constructor(
+    private readonly module: Urdd,
+    private readonly source: RobotSource,
+  ) {
+    if (source.kind === "zip") {
+      this.open = module.zip(source.name, new Uint8Array(source.bytes));
+      const listed = module.list(this.handle);
+      this.sizes = new Map(listed.files.map((file) => [file.path, file.size]));
+      for (const path of this.sizes.keys()) this.given.add(path);
+      return;
+    }
+    this.open = module.files(source.name, {});
+    if (source.kind === "local") {
+      for (const { path, file } of source.files) this.local.set(path, file);
+      this.sizes = new Map(source.files.map(({ path, file }) => [path, file.size]));
+    } else {
+      this.sizes = new Map(source.files.map((file) => [file.path, file.size]));
+      for (const { path, at } of source.files) if (at !== undefined) this.places.set(path, at);
+    }
+    for (const [path, size] of this.sizes) module.name(this.handle, path, size);
+  }
+
+  /** The files in the module. A query that waited for a file may come after they are closed. */
+  get handle(): number {
+    if (this.open === null) throw new Error(CLOSED);
+    return this.open;
+  }
+
+  /** Closes a robot of these files, and the files. */
+  close(robot: number): void {
+    if (robot !== 0) this.module.close(robot);
+    this.module.closeFiles(this.handle);
+    this.open = null;
+  }
+
+  list(): FileEntry[] {
+    return [...this.sizes].map(([path, size]) => ({ path, size }));
+  }
+
+  /** The files of the modules that a query needs. */
+  needed(what: keyof typeof MODULES): string[] {
+    const folders = MODULES[what].map((name) => `${name}_module`);
+    return [...this.sizes.keys()].filter((path) => {
+      if (path === "urdd.json") return true;
+      const parts = path.split("/");
+      const file = parts.pop() ?? "";
+      return (file === "module.json" || file === "VERSION") && folders.includes(parts.pop() ?? "");
+    });
+  }
+
+  /** Why a file cannot be loaded. */
+  fault(path: string): string | undefined {
+    return this.faults.get(path);
+  }
+
+  /** Passes files to the module. A file that cannot be loaded is missing there; the module reports it. */
+  async ensure(paths: string[], onProgress?: (done: number, of: number) => void): Promise<void> {
+    const wanted = paths.filter((path) => !this.given.has(path) && this.sizes.has(path));
+    const missing = paths.filter((path) => !this.sizes.has(path));
+    for (const path of missing) this.faults.set(path, "there is no such file");
+    const waiting = wanted.slice();
+    let done = 0;
+    const work = async (): Promise<void> => {
+      for (let path = waiting.shift(); path !== undefined && this.open !== null; path = waiting.shift()) {
+        try {
+          this.module.give(this.handle, path, await this.read(path));
+          this.given.add(path);
+          this.faults.delete(path);
+        } catch (error) {
+          if (error instanceof WebAssembly.RuntimeError) throw error;
+          this.faults.set(path, message(error));
+        }
+        onProgress?.(++done, wanted.length);
+      }
+    };
+    await Promise.all(Array.from({ length: Math.min(AT_ONCE, wanted.length) }, work));
+    if (this.open === null) throw new Error(CLOSED);
+  }
+
+  /** The bytes of a file. */
+  async read(path: string): Promise<Uint8Array<ArrayBuffer>> {
+    if (this.source.kind === "zip") return this.module.read(this.handle, path);
+    if (this.source.kind === "local") {
+      const file = this.local.get(path);
+      if (!file) throw new Error("there is no such file");
+      return new Uint8Array(await file.arrayBuffer());
+    }
+    const { base, token } = this.source;
+    const url = base + (this.places.get(path) ?? path.split("/").map(encodeURIComponent).join("/"));
+    const response = await fetch(url, { headers: token ? { "x-urdd-token": token } : {} });
+    if (response.status === 404) throw new Error("there is no such file");
+    if (!response.ok) throw new Error(`it cannot be read: the server answered ${response.status}`);
+    return new Uint8Array(await response.arrayBuffer());
+  }
+}
 
 const NO_VALIDATOR = "This page has no validator: drop the robot on the page of `urdd view`.";
 
@@ -60,7 +188,7 @@ const handlers: Handlers<Calls> = {
     await store.ensure(store.needed("about"), (done, of) => onProgress(done, of, "modules"));
     robot = engineNow.open(store.handle);
     about = engineNow.ask(robot, { ask: "about" }) as About;
-    return { about, files: store.list(), folder: store.name };
+    return { about, files: store.list() };
   },
 
   linkPoses({ q }) {
@@ -131,10 +259,10 @@ const handlers: Handlers<Calls> = {
     return engine().ask(open(), { ask: "skips", kind }) as Calls["skips"][1];
   },
 
-  async editSkips({ kind, edits, skipped_reasons }) {
+  async editSkips({ kind, edits }) {
     const { store } = opened();
     await store.ensure([...store.needed("pairs"), ...store.needed("about")]);
-    return engine().ask(open(), { ask: "edit_skips", kind, edits, skipped_reasons }) as Calls["editSkips"][1];
+    return engine().ask(open(), { ask: "edit_skips", kind, edits, skipped_reasons: null }) as Calls["editSkips"][1];
   },
 
   async samples() {

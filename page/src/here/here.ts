@@ -1,28 +1,24 @@
 /** The robots that this page makes of what was dropped, and the text of the one that is open. */
 
 import type { App } from "../app";
-import { message } from "../app";
+import type { Given } from "../drop";
+import type { RobotSource } from "../engine/client";
 import type { Report } from "../engine/protocol";
-import type { RobotSource } from "../engine/calls";
 import { Latest } from "../latest";
+import { unmet } from "../missing";
 import type { Entry } from "../model";
-import { ofText } from "./draft";
-import type { Draft, Drafting } from "./draft";
-import type { Keeper } from "./keeper";
-import { Kit } from "./kit";
-import { MadeRobot } from "./made";
-import { unmet } from "./missing";
-import type { Given } from "./protocol";
-import { Reader } from "./reader";
-import { Saver } from "./saver";
+import type { Keeper } from "../site";
+import { ofText } from "../state";
+import type { Draft } from "../state";
+import { message } from "../ui/format";
+import { Kit, MadeRobot, Reader } from "./made";
 
 /** Pauses after a change of the text, before it is examined and before the robot is made again, ms. */
 const SOON = 150;
 const LATER = 500;
 
-export class Here implements Keeper, Drafting {
-  readonly saver: Saver;
-  private readonly kit = new Kit();
+export class Here implements Keeper {
+  readonly kit = new Kit();
   private robots: MadeRobot[] = [];
   private count = 0;
   /** The robot that is open, or waited for. */
@@ -33,11 +29,6 @@ export class Here implements Keeper, Drafting {
   private readonly lints: Latest<MadeRobot>;
 
   constructor(private readonly app: App) {
-    const open = (): { robot: MadeRobot; draft: Draft | null } => {
-      if (!this.current) throw new Error("No robot is open.");
-      return { robot: this.current, draft: app.store.now.draft };
-    };
-    this.saver = new Saver(this.kit, open, () => this.saved());
     this.lints = new Latest(async (robot) => {
       const report = await robot.lint().then(
         (report) => ({ report, error: null, busy: null }),
@@ -136,7 +127,6 @@ export class Here implements Keeper, Drafting {
     this.timers.forEach(clearTimeout);
     const { current } = this;
     this.current = null;
-    this.app.drafting = null;
     this.app.store.set({ draft: null, wanted: [] });
     if (!current) return;
     current.close();
@@ -148,7 +138,7 @@ export class Here implements Keeper, Drafting {
   /** Adds files that were missing, and makes the robot again. */
   add(more: Given[]): void {
     const { current } = this;
-    if (!current) return;
+    if (!current || !this.app.store.now.draft) return;
     current.reader.add(more);
     this.lints.ask(current);
     void current.make();
@@ -208,7 +198,6 @@ export class Here implements Keeper, Drafting {
     if (this.current !== robot) return;
     if (format !== "xacro") {
       const draft: Draft = { path, format, text, isChanged: robot.reader.changed.has(path) };
-      this.app.drafting = this;
       this.app.store.set({ draft, tab: "Findings" });
       this.lints.ask(robot);
       this.want();

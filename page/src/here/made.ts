@@ -1,14 +1,147 @@
-/** A robot that this page makes of a description: at first what the picture needs, then its pieces, then all. */
+/** Robots that this page makes of descriptions: what their workers are asked, what is asked of the files of a drop, and the stages of a robot. */
 
-import { message } from "../app";
-import type { Report } from "../engine/protocol";
-import type { RobotSource } from "../engine/calls";
+import type { ExportOptions, Format, Generated, GenerateOptions } from "../../../wasm/npm/index";
+import { lost, USD_TEXT } from "../drop";
+import type { Given } from "../drop";
+import type { RobotSource } from "../engine/client";
+import { Link, compiled, Trapped } from "../engine/link";
 import type { Progress } from "../engine/link";
+import type { Description, Report } from "../engine/protocol";
 import { unknown } from "../model";
 import type { Entry } from "../model";
-import type { Maker } from "./kit";
-import type { Description, Given, MakeOptions } from "./protocol";
-import type { Reader } from "./reader";
+import { named } from "../site";
+import { message } from "../ui/format";
+
+type MakeOptions = Pick<GenerateOptions, "modules">;
+
+export type Actuators = NonNullable<ExportOptions["actuators"]>;
+
+/** The worker's queries and answers, by name. */
+export interface MakerCalls {
+  init: [{ module: WebAssembly.Module }, null];
+  /** Takes files, each of which is read when it is needed. */
+  take: [{ files: Given[] }, null];
+  descriptions: [Record<string, never>, Description[]];
+  /** Sets the content of a file that was taken. */
+  put: [{ path: string; text: string }, null];
+  lint: [{ path: string }, Report];
+  /**
+   * A URDD; what did not change is taken from the last that this worker made, or from the files of `donor` if it made none.
+   * The answer has all its paths, and those `files` that are not as they were there.
+   */
+  generate: [
+    { path: string; donor: Given[]; options: MakeOptions },
+    Pick<Generated, "links" | "dofs" | "notes"> & { paths: string[]; files: Given[] },
+  ];
+  /** The files of the URDF that an MJCF, SDF or USD becomes. */
+  import: [{ path: string }, Given[]];
+  /** Files for another program, of a URDD. */
+  export: [
+    { urdd: Given[]; format: Format; output: string; actuators: Actuators | null },
+    { notes: string[]; files: Given[] },
+  ];
+  /** A .zip of files. */
+  zip: [{ files: Given[] }, Blob];
+  /** The module's memory, bytes. */
+  memory: [Record<string, never>, number];
+}
+
+type Maker = Link<MakerCalls>;
+
+/** Workers that make robots. Their module is loaded when the first is started. */
+export class Kit {
+  private module: Promise<WebAssembly.Module> | null = null;
+
+  /** A worker without files. */
+  async worker(): Promise<Maker> {
+    const address = new URL(named("make.wasm"), document.baseURI).href;
+    this.module ??= compiled(fetch(address));
+    try {
+      const module = await this.module;
+      return new Link<MakerCalls>(new URL(named("make.js"), document.baseURI).href, () => ({ module }));
+    } catch (error) {
+      // It may be there the next time.
+      this.module = null;
+      throw error;
+    }
+  }
+
+  /** Does one job in a worker of its own. */
+  async once<T>(job: (maker: Maker) => Promise<T>): Promise<T> {
+    const maker = await this.worker();
+    try {
+      return await job(maker);
+    } finally {
+      maker.end();
+    }
+  }
+}
+
+/** What is asked of the files of a drop while robots are made: what is there, and what is wrong with it. */
+export class Reader {
+  /** Texts that a person changed, by path. */
+  readonly changed = new Map<string, string>();
+  private maker: Promise<Maker> | null = null;
+
+  constructor(
+    private readonly kit: Kit,
+    public files: Given[],
+  ) {}
+
+  descriptions(): Promise<Description[]> {
+    return this.ask((maker) => maker.ask("descriptions", {}));
+  }
+
+  lint(path: string): Promise<Report> {
+    return this.ask((maker) => maker.ask("lint", { path }));
+  }
+
+  /** The text of a description; null of a USD that is none. */
+  async text({ path, format }: Description): Promise<string | null> {
+    const file = this.files.find((file) => file.path === path)?.file;
+    if (format === "usd" && (await file?.slice(0, USD_TEXT.length).text()) !== USD_TEXT) return null;
+    return this.changed.get(path) ?? (await file?.text()) ?? "";
+  }
+
+  /** Changes the text of a file. */
+  change(path: string, text: string): void {
+    this.changed.set(path, text);
+    void this.maker?.then((maker) => maker.ask("put", { path, text })).catch(() => this.end());
+  }
+
+  /** Adds files, in place of those of the same path. They are found wherever they belong. */
+  add(more: Given[]): void {
+    const paths = new Set(more.map(({ path }) => path));
+    this.files = [...this.files.filter(({ path }) => !paths.has(path)), ...more.map(lost)];
+    this.end();
+  }
+
+  /** A worker that begins with these files. */
+  async worker(): Promise<Maker> {
+    const { files, changed } = this;
+    const maker = await this.kit.worker();
+    await maker.ask("take", { files });
+    for (const [path, text] of changed) await maker.ask("put", { path, text });
+    return maker;
+  }
+
+  end(): void {
+    void this.maker?.then((maker) => maker.end()).catch(() => undefined);
+    this.maker = null;
+  }
+
+  private async ask<T>(job: (maker: Maker) => Promise<T>): Promise<T> {
+    this.maker ??= this.worker();
+    const { maker } = this;
+    try {
+      return await job(await maker);
+    } catch (error) {
+      // The next one begins anew.
+      if (error instanceof Trapped && this.maker === maker) this.maker = null;
+      throw error;
+    }
+  }
+}
 
 /** What is made, one after another; each stage takes from the last what did not change. */
 const STAGES: readonly MakeOptions[] = [
@@ -19,6 +152,7 @@ const STAGES: readonly MakeOptions[] = [
 /** Minimum time between two reports of progress, ms. */
 const PERIOD = 100;
 
+/** A robot that is made of a description: at first what the picture needs, then its pieces, then all. */
 export class MadeRobot {
   entry: Entry;
   /** The files of the URDD, as far as it is made. */
@@ -46,11 +180,6 @@ export class MadeRobot {
 
   get source(): RobotSource {
     return { kind: "local", name: this.description.name, files: this.files };
-  }
-
-  /** Whether it is being made. */
-  get isRunning(): boolean {
-    return this.entry.making !== null;
   }
 
   lint(): Promise<Report> {
@@ -99,7 +228,7 @@ export class MadeRobot {
     this.turn++;
     this.maker?.end();
     this.maker = null;
-    if (this.isRunning || failure !== null) this.set({ making: null, failure, stopped });
+    if (this.entry.making !== null || failure !== null) this.set({ making: null, failure, stopped });
   }
 
   /** Gives back the memory of what can be had again. */

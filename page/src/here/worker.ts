@@ -1,17 +1,25 @@
 /** A worker that makes robots of descriptions. It reads the files that it was given, and nothing else. */
 
-import { hasPlace } from "../endings";
-import { changes, contents, started } from "../engine/module";
-import type { Urdd } from "../engine/module";
-import type { Report } from "../engine/protocol";
-import { serve } from "../engine/serve";
-import type { OnProgress } from "../engine/serve";
-import { packed } from "./pack";
-import type { Description, Exported, Given, Imported, Made, MakerCalls } from "./protocol";
-import { bytes } from "../ui/format";
+import { zipSync } from "fflate";
+import type { Zippable } from "fflate";
+import type { Exported, Generated, ImportedRobot } from "../../../wasm/npm/index";
+import { hasPlace } from "../drop";
+import type { Given } from "../drop";
+import { changes, contents, started, serve } from "../engine/link";
+import type { Urdd, OnProgress } from "../engine/link";
+import type { Description, Report } from "../engine/protocol";
+import { bytes, message } from "../ui/format";
+import type { MakerCalls } from "./made";
 
 /** Maximum size of what is read for one robot: it is in memory more than once while it is made. */
 const MAX_ROBOT = 512 * 2 ** 20;
+/** The time of files in a .zip, which cannot say an earlier one. */
+const TIME = "1980-01-02T00:00:00";
+/** How much a .zip is compressed, of 0 to 9: meshes gain little from more. */
+const LEVEL = 3;
+
+/** An answer of the module: of the package's, `files` is an address there. */
+type Answer<T> = Omit<T, "files"> & { files: number };
 
 /** As the libraries of TypeScript for pages do not have it. */
 declare class FileReaderSync {
@@ -53,7 +61,7 @@ function content(path: string): Uint8Array {
   try {
     return new Uint8Array(new FileReaderSync().readAsArrayBuffer(file));
   } catch (error) {
-    throw new RangeError(`${path} cannot be read: ${error instanceof Error ? error.message : String(error)}`);
+    throw new RangeError(`${path} cannot be read: ${message(error)}`);
   }
 }
 
@@ -107,25 +115,26 @@ serve<MakerCalls>(
       if (last === 0 && donor.length > 0) last = await opened(donor);
       tell = onProgress;
       begin();
-      const made = maker().generate(files, { path, ...options }, last) as Made;
+      const made = maker().generate(files, { path, ...options }, last) as Answer<Generated>;
       const before = last;
       last = made.files;
       const { paths, changed } = changes(maker(), last, before);
       maker().closeFiles(before);
-      return { ...made, paths, files: changed };
+      const { links, dofs, notes } = made;
+      return { links, dofs, notes, paths, files: changed };
     },
 
     import({ path }) {
       begin();
-      const made = maker().importRobot(files, { path }) as Imported;
-      return { main: made.urdf, files: contents(maker(), made.files) };
+      const made = maker().importRobot(files, { path }) as Answer<ImportedRobot>;
+      return contents(maker(), made.files);
     },
 
     async export({ urdd, format, output, actuators }) {
       const from = await opened(urdd);
-      const made = maker().export(from, { format, output, actuators }) as Exported;
+      const made = maker().export(from, { format, output, actuators }) as Answer<Exported>;
       maker().closeFiles(from);
-      return { main: made.main, notes: made.notes, files: contents(maker(), made.files) };
+      return { notes: made.notes, files: contents(maker(), made.files) };
     },
 
     zip({ files: all }) {
@@ -138,3 +147,10 @@ serve<MakerCalls>(
   },
   ["init", "take", "put"],
 );
+
+/** A .zip of files: the same bytes for the same files. */
+async function packed(files: Given[]): Promise<Blob> {
+  const all: Zippable = {};
+  for (const { path, file } of files) all[path] = [new Uint8Array(await file.arrayBuffer()), { mtime: TIME }];
+  return new Blob([zipSync(all, { level: LEVEL }).slice()], { type: "application/zip" });
+}

@@ -1,11 +1,10 @@
 /** The list of missing meshes, and of what is drawn instead. */
 
-import { drawnInstead } from "../absent";
 import type { App } from "../app";
-import { packagesOf } from "../here/missing";
+import { drawnInstead, packagesOf } from "../missing";
 import { button, fill, h, prose } from "../ui/dom";
+import { picker } from "../ui/files";
 import { count, name } from "../ui/format";
-import { picker } from "../ui/picker";
 
 /** Maximum number of meshes that are named. */
 const MAX_NAMED = 40;
@@ -13,7 +12,7 @@ const MAX_NAMED = 40;
 /** Asks for the files that the open robot lacks, or that a robot cannot be made without. */
 export function missingFiles(app: App, isDrawn: boolean): HTMLElement {
   const add = (files: File[]): void =>
-    app.drafting?.add(files.map((file) => ({ path: file.webkitRelativePath || file.name, file })));
+    app.site.here?.add(files.map((file) => ({ path: file.webkitRelativePath || file.name, file })));
   const text = h("p", {});
   app.store.on(["robot", "absent", "wanted"], ({ robot, absent, wanted }) => {
     const names = [...absent.map(({ filename }) => filename), ...wanted];
@@ -52,7 +51,7 @@ export function absent(app: App): HTMLElement {
     fill(
       list,
       ...absent.slice(0, MAX_NAMED).map((mesh) => {
-        const link = button(name(robot.links[mesh.link]?.name ?? ""), { class: "place" }, () =>
+        const link = button(name(robot.nameOf(mesh.link)), { class: "place" }, () =>
           app.select({ kind: "link", index: mesh.link }),
         );
         return h(

@@ -1,13 +1,12 @@
-/** The validator's report, grouped and filtered, in the order in which to fix it. */
+/** The validator's report, grouped and filtered, in the order in which to fix it; and a finding with its places and its rule's explanation. */
 
 import type { App } from "../app";
 import type { Finding, Severity, UrddReport } from "../engine/protocol";
-import { linkOf, namedLinks, paintNow, paintOf, places, tally, toMend } from "../findings";
+import { linkOf, namedLinks, paintNow, paintOf, places, tally, toMend, CONSEQUENCES } from "../findings";
 import type { State } from "../state";
 import { button, fill, h, prose } from "../ui/dom";
-import { count, name } from "../ui/format";
-import { card } from "./finding_card";
-import { imported } from "./imported";
+import { message, count, name } from "../ui/format";
+import { placeList } from "./places";
 import { programs } from "./programs";
 
 const SEVERITIES: readonly Severity[] = ["error", "warning", "info"];
@@ -134,7 +133,7 @@ function groupsOf(app: App, finding: Finding, grouping: Grouping): [string, Find
   const parts = new Map<string, unknown[]>();
   for (const place of all) {
     const link = robot ? linkOf(robot, place) : null;
-    const key = link === null ? NO_LINK : name(robot?.links[link]?.name ?? "");
+    const key = link === null ? NO_LINK : name(robot?.nameOf(link) ?? "");
     parts.set(key, [...(parts.get(key) ?? []), place]);
   }
   const cut = finding.count - all.length;
@@ -225,4 +224,71 @@ function notVerified(urdd: UrddReport): Node[] {
       ),
     ),
   ];
+}
+
+/** A finding: its message, its places, and the explanation of its rule. */
+function card(app: App, finding: Finding): HTMLElement {
+  const explanation = h("div", { class: "explanation" });
+  const made = button("Explain", { class: "tiny" }, () => void explain(app, finding.code, explanation));
+  const consequence = CONSEQUENCES.get(String(finding["consequence"]));
+  return h(
+    "article",
+    { class: `finding ${finding.severity}` },
+    h(
+      "div",
+      { class: "heading" },
+      h("span", { class: `dot ${finding.severity}` }),
+      h("strong", {}, finding.code),
+      h("span", { class: "name", title: finding.name }, finding.name),
+      h("span", { class: "spring" }),
+      made,
+    ),
+    h("p", {}, ...prose(name(finding.message))),
+    h("p", { class: "hint" }, [consequence, count(finding.count, "place")].filter(Boolean).join(" · ")),
+    placeList(app, places(finding), finding.count),
+    explanation,
+  );
+}
+
+async function explain(app: App, code: string, into: HTMLElement): Promise<void> {
+  if (into.childElementCount > 0) {
+    fill(into);
+    return;
+  }
+  try {
+    const known = app.store.now.report.report?.rules?.find((rule) => rule.code === code);
+    const rule = known ?? app.site.explanation(code) ?? (await app.engine.ask("explain", { code }));
+    fill(
+      into,
+      rule.clause !== null && h("p", { class: "hint" }, `SPEC ${rule.clause}`),
+      ...rule.explanation.split("\n\n").map(paragraph),
+    );
+  } catch (error) {
+    fill(into, h("p", { class: "hint" }, message(error)));
+  }
+}
+
+/** A paragraph, or a list of lines that begin with a dash. */
+function paragraph(text: string): HTMLElement {
+  if (!text.startsWith("- ")) return h("p", {}, ...prose(text));
+  const items = text.slice(2).split("\n- ");
+  return h("ul", {}, ...items.map((item) => h("li", {}, ...prose(item))));
+}
+
+/** What an import made of an MJCF, SDF or USD, folded: what is lost, what is otherwise, and what was assumed. Nothing of a URDF. */
+function imported({ imported }: UrddReport): HTMLElement | false {
+  if (!imported) return false;
+  const { format, lost, otherwise, notes } = imported;
+  const lines = [
+    ...lost.map(({ what, count }) => `Lost: ${what} (${count})`),
+    ...otherwise.map(({ what, count, how }) => `${what} (${count}): ${how ?? ""}`),
+    ...notes,
+  ];
+  const losses = lost.length > 0 ? `, ${count(lost.length, "kind of thing is", "kinds of things are")} lost` : "";
+  return h(
+    "details",
+    { class: "imported" },
+    h("summary", {}, `Imported from ${format.toUpperCase()}${losses}`),
+    h("ul", {}, ...lines.map((line) => h("li", {}, name(line)))),
+  );
 }

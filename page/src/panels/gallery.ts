@@ -1,11 +1,11 @@
 /** All robots of the site, with pictures and search, and a place to drop a folder or a zip. */
 
 import type { App } from "../app";
-import { message } from "../app";
 import type { Entry } from "../model";
 import { button, fill, h } from "../ui/dom";
-import { count, name } from "../ui/format";
-import { picker } from "../ui/picker";
+import { picker } from "../ui/files";
+import { message, count, name } from "../ui/format";
+import { generating } from "./status";
 
 /** Number of parallel requests. */
 const AT_ONCE = 2;
@@ -138,7 +138,7 @@ function card(first: Entry, open: (entry: Entry) => void, remove: (entry: Entry)
 }
 
 function words({ ready, making, failure, verdict, findings }: Entry): string {
-  if (making) return making.of > 0 ? `generating: ${making.done} of ${making.of}` : "generating";
+  if (making) return generating(making);
   if (failure !== null) return "generation failed";
   if (!ready) return "generated when it is opened";
   if (verdict === null) return "";

@@ -3,14 +3,14 @@
 import type { App } from "../app";
 import { tally } from "../findings";
 import type { Entry } from "../model";
-import { button, fill, h } from "../ui/dom";
-import { count, name } from "../ui/format";
 import { LAYERS, LAYER_HINTS, LAYER_NAMES } from "../state";
 import type { State } from "../state";
+import { button, fill, h } from "../ui/dom";
+import type { Child } from "../ui/dom";
+import { count, name } from "../ui/format";
 import { toggleTheme } from "../ui/theme";
-import { Pills } from "../ui/pills";
 import { absentChip } from "./absent";
-import { collision } from "./status";
+import { collision, generating } from "./status";
 
 /** The layers in the bar; the panel has all. */
 const SHORT = LAYERS.slice(0, LAYERS.indexOf("spheres") + 1);
@@ -153,7 +153,7 @@ function running(
   actions: { stop: () => void; goOn: () => void },
 ): Node[] {
   if (making) {
-    const chip = h("span", { class: "chip making" }, progress(making));
+    const chip = h("span", { class: "chip making" }, generating(making));
     const stop = button("Stop", { class: "chip", title: "Stop generating; what is there stays" }, actions.stop);
     return here ? [chip, stop] : [chip];
   }
@@ -166,12 +166,56 @@ function kept({ here }: Entry): string {
   return here ? "It is in this page only, and gone when you close it" : "Deleted when `urdd view` ends";
 }
 
-function progress({ done, of }: { done: number; of: number }): string {
-  return of > 0 ? `generating: ${done} of ${of}` : "generating";
-}
-
 function version(metadata: Record<string, unknown> | null, profile: string): string {
   const found = metadata?.["urdd_version"] ?? metadata?.["spec_version"];
   if (typeof found === "string") return `URDD ${name(found)}`;
   return profile === "legacy" ? "legacy URDD" : "URDD";
+}
+
+/** Pills in a row, the most important first. Those without room are behind a button that counts them. */
+class Pills {
+  readonly element = h("div", { class: "chips" });
+  /** What the button unfolds, below the bar. */
+  readonly rest = h("div", { class: "rest", id: "more-chips", role: "group", "aria-label": "More about this robot" });
+  private readonly more: HTMLButtonElement;
+  private pills: HTMLElement[] = [];
+
+  constructor(app: App) {
+    this.more = button("", { class: "chip more", "aria-controls": this.rest.id, "aria-expanded": "false" }, () =>
+      app.store.set({ unfolded: app.store.now.unfolded === "pills" ? null : "pills" }),
+    );
+    app.store.on(["unfolded"], ({ unfolded }) => this.more.setAttribute("aria-expanded", String(unfolded === "pills")));
+    let width = 0;
+    new ResizeObserver(() => {
+      if (this.element.clientWidth === width) return;
+      width = this.element.clientWidth;
+      this.fit();
+    }).observe(this.element);
+  }
+
+  fill(...pills: Child[]): void {
+    this.pills = pills.filter((pill) => pill instanceof HTMLElement);
+    this.fit();
+  }
+
+  /** Folds what has no room. Call it when a pill has changed. */
+  fit(): void {
+    const { element, more, rest } = this;
+    const shown = this.pills.filter((pill) => !pill.hidden);
+    const { activeElement: focused } = document;
+    const isNarrow = (): boolean => element.scrollWidth > element.clientWidth;
+    fill(element, ...shown);
+    const folded: HTMLElement[] = [];
+    if (isNarrow()) element.append(more);
+    while (isNarrow() && shown.length > folded.length) {
+      const [last] = shown.slice(-1 - folded.length);
+      if (!last) break;
+      last.remove();
+      folded.unshift(last);
+      more.textContent = `+${folded.length}`;
+      more.title = `${folded.length} more`;
+    }
+    fill(rest, ...folded);
+    if (focused instanceof HTMLElement && focused !== document.activeElement) focused.focus();
+  }
 }

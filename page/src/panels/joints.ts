@@ -1,9 +1,12 @@
-/** Each movable joint with a slider, a number and limits; and actions on the whole configuration. */
+/** Each movable joint with a slider, a number and limits; and actions on the whole configuration, such as saving it with a name. */
 
 import type { App } from "../app";
-import { message } from "../app";
+import type { NamedConfiguration } from "../document";
+import type { RobotModel } from "../model";
+import { Sweep } from "../sweep";
 import { button, cut, fill, h } from "../ui/dom";
 import {
+  message,
   count,
   dofValue,
   entry as typed,
@@ -14,12 +17,7 @@ import {
   shownUnit,
   UNIT_NAMES,
 } from "../ui/format";
-import type { RobotModel } from "../model";
-import type { NamedConfiguration } from "../configurations";
-import { Sweep } from "../sweep";
-import { refine } from "../ui/slider";
 import { loops } from "./loops";
-import { naming } from "./naming";
 
 interface Control {
   dof: number;
@@ -259,4 +257,93 @@ async function paste(app: App): Promise<void> {
   } catch (error) {
     app.note(`Nothing was pasted: ${message(error)}`);
   }
+}
+
+/** Saves the pose that is shown as a named configuration of the URDD. */
+function naming(app: App): HTMLElement {
+  const entry = h("input", {
+    type: "text",
+    id: "pose-name",
+    autocomplete: "off",
+    spellcheck: "false",
+    placeholder: "Name of this pose",
+    "aria-label": "Name of this pose",
+    required: true,
+  });
+  const submit = h(
+    "button",
+    { type: "submit", title: "Save this pose as a named configuration of the URDD" },
+    "Save pose",
+  );
+  const form = h("form", { class: "actions", id: "naming" }, entry, submit);
+  const known = (): boolean => app.store.now.robot?.named.some((other) => other.name === entry.value) ?? false;
+  const relabel = (): void => {
+    submit.textContent = known() ? "Replace pose" : "Save pose";
+  };
+  entry.addEventListener("input", relabel);
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    void save(app, entry.value, known())
+      .then((shown) => {
+        entry.value = "";
+        relabel();
+        app.note(`Saved as \`${name(shown)}\`.`);
+      })
+      .catch((error: unknown) => app.note(`Nothing was saved: ${message(error)}`));
+  });
+  app.store.on(["robot"], ({ robot }) => {
+    form.hidden = !robot?.moves || !robot.entry.writable || app.site.mode !== "live";
+    relabel();
+  });
+  return form;
+}
+
+async function save(app: App, shown: string, replace: boolean): Promise<string> {
+  const { robot, q, skips } = app.store.now;
+  const { revision } = app;
+  if (!robot || revision === null) throw new Error("the server does not answer");
+  const path = `robots/${encodeURIComponent(robot.entry.id)}/configurations`;
+  await app.site.post(path, { name: shown, configuration: q, replace, revision });
+  // Saves of skips cannot be undone past this one.
+  app.store.set({ skips: { ...skips, saved: 0 } });
+  await app.reopen(robot.entry);
+  return shown;
+}
+
+/** Number of steps for a page key, or for an arrow key with Shift. */
+const LARGE = 10;
+/** How much slower the pointer is with Shift. */
+const SLOW = 10;
+
+/** Adds keys and a slow pointer to a slider without steps. `step` is called for each key. */
+function refine(slider: HTMLInputElement, step: () => number): void {
+  const put = (value: number): void => {
+    slider.value = String(Math.min(Number(slider.max), Math.max(Number(slider.min), value)));
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+  };
+  slider.addEventListener("keydown", (event) => {
+    const steps = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: LARGE, PageDown: -LARGE }[
+      event.key
+    ];
+    if (steps === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    put(Number(slider.value) + steps * (event.shiftKey ? LARGE : 1) * step());
+  });
+  let from: { x: number; value: number } | null = null;
+  slider.addEventListener("pointerdown", (event) => {
+    if (!event.shiftKey || event.button !== 0) return;
+    event.preventDefault();
+    slider.focus();
+    slider.setPointerCapture(event.pointerId);
+    from = { x: event.clientX, value: Number(slider.value) };
+  });
+  slider.addEventListener("pointermove", (event) => {
+    if (!from) return;
+    const range = Number(slider.max) - Number(slider.min);
+    put(from.value + ((event.clientX - from.x) * range) / slider.clientWidth / SLOW);
+  });
+  for (const end of ["pointerup", "pointercancel"])
+    slider.addEventListener(end, () => {
+      from = null;
+    });
 }

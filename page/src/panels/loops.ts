@@ -1,9 +1,8 @@
 /** What closes the loops of a robot, and which of them are open. */
 
-import { apart } from "../apart";
 import type { App } from "../app";
 import { button, fill, h } from "../ui/dom";
-import { count, name } from "../ui/format";
+import { apart, count, name } from "../ui/format";
 
 /** Maximum number of open loops that are listed. */
 const LISTED = 12;

@@ -1,14 +1,11 @@
-/** Places in files: what they name, what is said there, and a click shows the text. */
+/** Places in files: what they name, what is said there, the fixes of it, and a click shows the text. */
 
 import type { App } from "../app";
-import { message } from "../app";
-import { excerpt } from "../excerpt";
 import { linkOf } from "../findings";
 import type { Place } from "../findings";
 import { fixesOf, isDraft, mend } from "../fixes";
 import { button, fill, h, prose } from "../ui/dom";
-import { count, name } from "../ui/format";
-import { fixButton } from "./fix_button";
+import { message, count, name } from "../ui/format";
 
 /** Number of places shown at first, and added by each click. */
 const SHOWN = 5;
@@ -106,7 +103,7 @@ async function showText(app: App, path: string, line: number, column: number | n
     if (!found) throw new Error("the file no longer has this line");
     fill(
       into,
-      ...found.lines.map(({ number, text, isPlace }) =>
+      ...found.map(({ number, text, isPlace }) =>
         h(
           "div",
           { class: isPlace ? "line at" : "line" },
@@ -118,4 +115,42 @@ async function showText(app: App, path: string, line: number, column: number | n
   } catch (error) {
     fill(into, h("p", { class: "hint" }, `The text cannot be shown: ${message(error)}`));
   }
+}
+
+/** A button that makes a fix. */
+export function fixButton({ message, is_safe }: { message: string; is_safe: boolean }, click: () => void): HTMLElement {
+  const title = is_safe
+    ? "Has one right answer: `urdd lint --fix` does it"
+    : "One way to mend it: `urdd lint --fix` leaves it to you";
+  return button([is_safe ? "Fix: " : "Possible fix: ", ...prose(name(message))], { class: "fix", title }, click);
+}
+
+/** Number of lines before and after, and maximum number of characters of a line. */
+const AROUND = 2;
+const WIDTH = 160;
+
+/** A few lines around a position, which count from 1, columns in characters. Null if the text has no such line. */
+function excerpt(
+  text: string,
+  line: number,
+  column: number | null,
+): { number: number; text: string; isPlace: boolean }[] | null {
+  const all = text.split(/\r\n|\n|\r/);
+  if (line < 1 || line > all.length) return null;
+  const first = Math.max(1, line - AROUND);
+  const lines = all.slice(first - 1, line + AROUND).map((text, k) => {
+    const isPlace = first + k === line;
+    return { number: first + k, text: cut(text, isPlace ? (column ?? 1) : 1), isPlace };
+  });
+  while (lines.at(-1)?.text === "" && lines.at(-1)?.isPlace === false) lines.pop();
+  return lines;
+}
+
+/** The part of a long line around a column: a document can be a single line. */
+function cut(text: string, column: number): string {
+  const chars = Array.from(text);
+  if (chars.length <= WIDTH) return text;
+  const start = Math.max(0, Math.min(column - 1 - WIDTH / 4, chars.length - WIDTH));
+  const end = start + WIDTH;
+  return (start > 0 ? "…" : "") + chars.slice(start, end).join("") + (end < chars.length ? "…" : "");
 }

@@ -1,13 +1,12 @@
 /** Layers with their opacity, overlays, and the visible links. */
 
-import type { AbsentMesh } from "../absent";
-import type { SphereLevel } from "../spheres";
 import type { App } from "../app";
+import { partColor } from "../document";
+import type { RobotPart, SphereLevel } from "../document";
+import type { AbsentMesh } from "../missing";
 import type { RobotModel } from "../model";
-import { partColor } from "../parts";
-import type { RobotPart } from "../parts";
-import type { LayerKind } from "../state";
 import { LAYERS, LAYER_HINTS, LAYER_NAMES, OVERLAYS, OVERLAY_NAMES, sphereLevel } from "../state";
+import type { LayerKind } from "../state";
 import { button, cut, fill, h } from "../ui/dom";
 import { count, length, name } from "../ui/format";
 
@@ -187,7 +186,7 @@ function notFound(robot: RobotModel, layer: LayerKind, absent: readonly AbsentMe
     geometry === "Visual" ? layer === "original" || layer === "plain" : layer === "collision",
   );
   if (of.length === 0) return "";
-  const links = [...new Set(of.map(({ link }) => name(robot.links[link]?.name ?? "")))];
+  const links = [...new Set(of.map(({ link }) => name(robot.nameOf(link))))];
   const rest = links.length > NAMED ? ` and ${links.length - NAMED} more` : "";
   return `${count(of.length, "mesh was", "meshes were")} not found: ${links.slice(0, NAMED).join(", ")}${rest}`;
 }

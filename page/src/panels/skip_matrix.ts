@@ -20,10 +20,10 @@ export function reasonClass(letter: string): string {
 }
 
 /** Side of the matrix, CSS pixels. */
-export const SIDE = 340;
+const SIDE = 340;
 
 /** The shapes of the rows and columns: all, or those of two links. */
-export interface Region {
+interface Region {
   rows: number[];
   columns: number[];
 }
@@ -39,6 +39,12 @@ export function at({ rows, columns }: Region, x: number, y: number): [number, nu
   const row = rows[Math.floor(y * rows.length)];
   const column = columns[Math.floor(x * columns.length)];
   return row === undefined || column === undefined || x < 0 || y < 0 ? null : [row, column];
+}
+
+/** Whether a shape is one of a pair: of this link, or of this piece of it. */
+export function isAt(answer: SkipsAnswer, shape: number, [link, piece]: Pair[0]): boolean {
+  const place = answer.places[shape];
+  return place?.[0] === link && (!answer.kind.startsWith("piece") || place[1] === piece);
 }
 
 export function draw(
@@ -68,11 +74,7 @@ export function draw(
   });
   context.globalAlpha = 1;
   if (!pair) return;
-  const ofPieces = answer.kind.startsWith("piece");
-  const is = (shape: number, [link, piece]: [number, number]): boolean => {
-    const place = answer.places[shape];
-    return place?.[0] === link && (!ofPieces || place[1] === piece);
-  };
+  const is = (shape: number, one: Pair[0]): boolean => isAt(answer, shape, one);
   context.strokeStyle = style.getPropertyValue("--text");
   context.lineWidth = Math.max(2, ratio * 1.5);
   rows.forEach((i, row) => {

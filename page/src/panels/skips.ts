@@ -4,12 +4,12 @@ import type { App } from "../app";
 import { SHAPE_KINDS } from "../engine/protocol";
 import type { ShapeKind, SkipEdit, SkipsAnswer } from "../engine/protocol";
 import type { RobotModel } from "../model";
-import { decide, download, isSkipped, letterAt, load, nearer, save, undo } from "../skips";
+import { decide, download, isOf, isSkipped, letterAt, load, save, undo } from "../skips";
 import type { Pair } from "../state";
 import { button, cut, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
-import { SHAPE_NAMES } from "./proximity";
-import { at, draw, REASONS, reasonClass, region } from "./skip_matrix";
+import { SHAPE_NAMES, skipNearer } from "./proximity";
+import { at, draw, isAt, REASONS, reasonClass, region } from "./skip_matrix";
 
 /** Maximum number of rows with names. */
 const MAX_LABELS = 17;
@@ -177,8 +177,8 @@ export function skips(app: App): HTMLElement {
 /** The name beside a row. */
 function label(robot: RobotModel, answer: SkipsAnswer, shape: number, pair: Pair | null): HTMLElement {
   const [link, piece] = answer.places[shape] ?? [0, 0];
-  const text = name(robot.links[link]?.name ?? "");
-  const chosen = pair?.some(([other, k]) => other === link && (k === piece || !answer.kind.startsWith("piece")));
+  const text = name(robot.nameOf(link));
+  const chosen = pair?.some((one) => isAt(answer, shape, one));
   return h(
     "span",
     { class: chosen ? "cut chosen" : "cut", title: text },
@@ -203,7 +203,7 @@ function summary(answer: SkipsAnswer): string {
 function words(robot: RobotModel, answer: SkipsAnswer, [i, j]: [number, number]): string {
   const of = (k: number): string => {
     const [link, piece] = answer.places[k] ?? [0, 0];
-    return name(robot.links[link]?.name ?? "") + (answer.kind.startsWith("piece") ? ` piece ${piece}` : "");
+    return name(robot.nameOf(link)) + (answer.kind.startsWith("piece") ? ` piece ${piece}` : "");
   };
   const reason = REASONS.get(letterAt(answer, i, j)) ?? "";
   return `${of(i)} · ${of(j)}: ${reason}, ${isSkipped(answer, i, j) ? "skipped" : "checked"}`;
@@ -211,10 +211,7 @@ function words(robot: RobotModel, answer: SkipsAnswer, [i, j]: [number, number])
 
 /** The row and the column of a pair of shapes. */
 function shapesOf(answer: SkipsAnswer, pair: Pair): [number, number] | null {
-  const ofPieces = answer.kind.startsWith("piece");
-  const [i = -1, j = -1] = pair.map(([link, piece]) =>
-    answer.places.findIndex(([other, k]) => other === link && (!ofPieces || k === piece)),
-  );
+  const [i = -1, j = -1] = pair.map((one) => answer.places.findIndex((_, shape) => isAt(answer, shape, one)));
   return i < 0 || j < 0 ? null : [i, j];
 }
 
@@ -225,9 +222,7 @@ function whys(answer: SkipsAnswer, pairs: [number, number][], links: [string, st
     const text = REASONS.get(letterAt(answer, i, j)) ?? "no reason given";
     reasons.set(text, (reasons.get(text) ?? 0) + 1);
   }
-  const edit = answer.edits
-    ?.filter(({ link_a, link_b }) => [link_a, link_b].sort().join("\0") === links.slice().sort().join("\0"))
-    .pop();
+  const edit = answer.edits?.filter((edit) => isOf(edit, links)).at(-1);
   const found = [...reasons].map(([text, n]) => (pairs.length > 1 ? `${text} (${n.toLocaleString("en")})` : text));
   const decided = edit && `edited: ${edit.skip ? "skip" : "check"}${edit.reason ? `, ${name(edit.reason)}` : ""}`;
   return [found.join(", "), decided].filter(Boolean).join("; ");
@@ -236,7 +231,7 @@ function whys(answer: SkipsAnswer, pairs: [number, number][], links: [string, st
 /** The possible edits of the selected pair of links. */
 function decision(app: App, robot: RobotModel, answer: SkipsAnswer, pair: Pair): Node[] {
   const links: [number, number] = [pair[0][0], pair[1][0]];
-  const [a, b] = links.map((link) => robot.links[link]?.name ?? "") as [string, string];
+  const [a, b] = links.map((link) => robot.nameOf(link)) as [string, string];
   const pairs = answer.places.flatMap(([first], i) =>
     answer.places.flatMap(([second], j): [number, number][] =>
       first === links[0] && second === links[1] && i !== j ? [[i, j]] : [],
@@ -274,16 +269,7 @@ function decision(app: App, robot: RobotModel, answer: SkipsAnswer, pair: Pair):
       { class: "actions" },
       button("Skip", "All pairs of shapes of these two links", () => void decide(app, [say(true)])),
       button("Check", "All pairs of shapes of these two links", () => void decide(app, [say(false)])),
-      button(
-        "Skip all nearer",
-        "Every pair of links that is nearer than this one in this configuration",
-        () => void nearer(app, links, "distance", reason.value.trim()),
-      ),
-      button(
-        "Skip all relatively nearer",
-        "Every pair of links whose distance is a smaller fraction of its mean",
-        () => void nearer(app, links, "relative", reason.value.trim()),
-      ),
+      ...skipNearer(app, links, () => reason.value.trim()),
     ),
   ];
 }

@@ -15,6 +15,11 @@ export function said({ title = "Loading", what, done, of }: NonNullable<State["l
   return `${title} ${what}${of > 0 ? `, ${done} of ${of}` : ""}`;
 }
 
+/** The progress of a generation, in words. */
+export function generating({ done, of }: { done: number; of: number }): string {
+  return of > 0 ? `generating: ${done} of ${of}` : "generating";
+}
+
 /** Whether the robot collides: a text, a shorter one, and a class. */
 export function collision({ robot, proximity, contacts }: Readonly<State>): {
   text: string;
@@ -31,8 +36,7 @@ export function collision({ robot, proximity, contacts }: Readonly<State>): {
   });
   if (error !== null || !robot?.moves) return as("collisions unknown", "open", error ?? "the joints cannot be moved");
   if (!answer || !contacts) return as("checking for collisions…", "open", "");
-  const named = (links: readonly number[]): string =>
-    links.map((link) => name(robot.links[link]?.name ?? "")).join(" – ");
+  const named = (links: readonly number[]): string => links.map((link) => name(robot.nameOf(link))).join(" – ");
   const listed = (all: string[]): string =>
     all.slice(0, NAMED).join(", ") + (all.length > NAMED ? ` and ${all.length - NAMED} more` : "");
   const pairs = contacts.pairs.map(({ links }) => named(links));

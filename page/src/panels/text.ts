@@ -1,18 +1,19 @@
 /** The text that the robot is made of: an editor with findings and fixes, which is loaded when it is first opened. */
 
 import type { App } from "../app";
-import { message } from "../app";
 import type { Editor } from "../editor/editor";
-import type { Mark } from "../editor/marks";
-import { fileName, hasFixes, isDraft } from "../fixes";
-import { ofText } from "../here/draft";
-import type { TextDraft } from "../here/draft";
-import { named } from "../named";
+import type { Mark, Found } from "../editor/marks";
+import type { Deed, Report } from "../engine/protocol";
+import { places } from "../findings";
+import { fileName, hasFixes, isDraft, fixesOf } from "../fixes";
+import { named } from "../site";
+import { ofText } from "../state";
+import type { TextDraft, Draft } from "../state";
 import { button, fill, h, prose } from "../ui/dom";
-import { count, name } from "../ui/format";
-import { offer } from "../ui/offer";
-import { fixButton } from "./fix_button";
-import { foundIn } from "./text_findings";
+import { offer } from "../ui/files";
+import { message, count, name } from "../ui/format";
+import { fixButton } from "./places";
+import { DEEDS } from "./programs";
 
 /** Numbers of characters from which a text is without colours, and from which it is only shown. */
 const PLAIN = 2e6;
@@ -31,6 +32,7 @@ export function text(app: App): HTMLElement {
     button("↷", { "aria-label": "Redo", title: "Redo (Ctrl-Shift-Z)" }, () => editor?.redo()),
     button("Find", "Find and replace (Ctrl-F)", () => editor?.find()),
   ];
+  const save = (): void => saveDraft(app);
   const saving = button("Save", { class: "main", title: "Download the text as a file (Ctrl-S)" }, save);
   const hint = h("p", { class: "hint" });
   const host = h("div", { class: "editor" });
@@ -59,13 +61,6 @@ export function text(app: App): HTMLElement {
     if (app.store.now.draft?.isChanged) event.preventDefault();
   });
 
-  function save(): void {
-    const draft = ofText(app.store.now.draft);
-    if (!draft) return;
-    offer(new Blob([draft.text], { type: "application/xml" }), fileName(draft));
-    app.drafting?.saved();
-  }
-
   async function load(): Promise<void> {
     loading = true;
     fill(wait, "Loading the editor");
@@ -75,7 +70,7 @@ export function text(app: App): HTMLElement {
       editor = new bundle.Editor(host.shadowRoot ?? host.attachShadow({ mode: "open" }), {
         changed: (text) => {
           if (shown) shown.text = text;
-          if (text !== app.store.now.draft?.text) app.drafting?.edit(text);
+          if (text !== app.store.now.draft?.text) app.site.here?.edit(text);
         },
         moved: list,
         save,
@@ -200,4 +195,31 @@ export function text(app: App): HTMLElement {
 
   app.store.on(["draft", "tab", "report", "textAt"], follow);
   return panel;
+}
+
+/** Downloads the text as it is now. */
+export function saveDraft(app: App): void {
+  const draft = ofText(app.store.now.draft);
+  if (!draft) return;
+  offer(new Blob([draft.text], { type: "application/xml" }), fileName(draft));
+  app.site.here?.saved();
+}
+
+/** The findings of a report that have a line of the draft. */
+function foundIn(report: Report, draft: Draft): Found[] {
+  const urdd = report.urdds[0];
+  if (!urdd) return [];
+  const names = new Map(urdd.programs.map(({ program, name }) => [program, name]));
+  return urdd.findings.flatMap((finding) => {
+    const { code, severity, message } = finding;
+    const deeds = new Map<Deed, string[]>();
+    for (const { program, does } of finding.programs)
+      deeds.set(does, [...(deeds.get(does) ?? []), names.get(program) ?? program]);
+    const programs = [...deeds].map(([deed, names]) => `${DEEDS[deed]}: ${names.join(", ")}`).join(" · ");
+    return places(finding).flatMap((place) => {
+      if (place.line === null || !isDraft(draft, place.file)) return [];
+      const { line, column, message: here } = place;
+      return [{ code, severity, message: here ?? message, programs, line, column, fixes: fixesOf(draft, place) }];
+    });
+  });
 }

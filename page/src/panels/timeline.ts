@@ -1,14 +1,12 @@
 /** A trajectory below the picture: play, speed, loop, plots, where it collides and how near it comes, a video of it. */
 
 import type { App } from "../app";
-import { message } from "../app";
 import type { RobotModel } from "../model";
-import { samplesOf } from "../samples";
-import { trajectoryOf } from "../trajectory";
+import { samplesOf, trajectoryOf } from "../trajectory";
 import type { Trajectory } from "../trajectory";
 import { button, fill, h } from "../ui/dom";
-import { length } from "../ui/format";
-import { offer } from "../ui/offer";
+import { offer } from "../ui/files";
+import { message, length } from "../ui/format";
 import { color } from "../ui/theme";
 import { Plots } from "./plots";
 

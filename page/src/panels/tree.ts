@@ -9,7 +9,6 @@ import { worstOfLinks } from "../findings";
 
 interface Row {
   link: number;
-  depth: number;
   element: HTMLElement;
   value: HTMLElement;
   dot: HTMLElement;
@@ -43,7 +42,7 @@ export function tree(app: App): HTMLElement {
     const dot = h("span", { class: "dot" });
     const indent = h("span", { class: "indent" });
     indent.style.width = `${Math.round(depth * step)}px`;
-    const label = name(robot.links[link]?.name ?? "");
+    const label = name(robot.nameOf(link));
     const joint = robot.links[link]?.parent_joint ?? null;
     const title =
       joint === null ? label : `${label}\n${name(robot.joints[joint]?.name ?? "")}: ${robot.joints[joint]?.type ?? ""}`;
@@ -64,7 +63,7 @@ export function tree(app: App): HTMLElement {
     element.addEventListener("dblclick", () => app.store.set({ tab: "Joints" }));
     element.addEventListener("pointerenter", () => app.hover({ kind: "link", index: link }));
     element.addEventListener("pointerleave", () => app.hover(null));
-    return { link, depth, element, value, dot };
+    return { link, element, value, dot };
   };
 
   const filter = (): void => {
@@ -122,9 +121,7 @@ export function tree(app: App): HTMLElement {
     }
   });
   app.store.on(["robot", "selected", "hovered", "hidden", "pair"], ({ robot, selected, hovered, hidden, pair }) => {
-    const linkOf = (part: typeof selected): number | null =>
-      part?.kind === "joint" ? (robot?.joints[part.index]?.child ?? null) : (part?.index ?? null);
-    const [chosen, under] = [linkOf(selected), linkOf(hovered)];
+    const [chosen, under] = [robot?.linkOf(selected), robot?.linkOf(hovered)];
     for (const row of rows) {
       const is = row.link === chosen || (pair?.some(([link]) => link === row.link) ?? false);
       row.element.setAttribute("aria-selected", String(is));
@@ -135,8 +132,7 @@ export function tree(app: App): HTMLElement {
   });
   let last: number | null = null;
   app.store.on(["selected"], ({ selected, robot }) => {
-    const link =
-      selected?.kind === "joint" ? (robot?.joints[selected.index]?.child ?? null) : (selected?.index ?? null);
+    const link = robot?.linkOf(selected) ?? null;
     if (link !== null && link !== last)
       rows.find((row) => row.link === link)?.element.scrollIntoView({ block: "nearest" });
     last = link;

@@ -1,11 +1,11 @@
 /** The ends of kinematic loops, drawn over the robot: a point where a loop is closed, a red line with its length where not. */
 
-import { Group, Matrix4, Quaternion, Vector3 } from "three";
-import { apart } from "../apart";
-import type { LoopErrors, Pose } from "../engine/protocol";
+import { Group, Vector3 } from "three";
+import type { LoopErrors } from "../engine/protocol";
 import type { RobotModel } from "../model";
 import { h } from "../ui/dom";
-import { linkMatrix } from "./drag";
+import { apart } from "../ui/format";
+import { matrixOf, poseOf } from "./robot";
 import { Segment } from "./segment";
 import type { View } from "./view";
 
@@ -47,21 +47,10 @@ export class Closings {
         segment.show(null, size);
         return;
       }
-      const ends = [0, 1].map((end) => origin(poses, one.links[end] ?? 0, one.frames[end]));
-      const [a, b] = ends;
+      const end = (k: 0 | 1): Vector3 =>
+        new Vector3().setFromMatrixPosition(poseOf(poses, one.links[k]).multiply(matrixOf(one.frames[k])));
       const text = apart(one, gap);
-      segment.show(a && b ? { points: [a, b], text: text ?? "", alarming: text !== null } : null, size);
+      segment.show({ points: [end(0), end(1)], text: text ?? "", alarming: text !== null }, size);
     });
   }
-}
-
-/** The origin of a frame of a link, in the root link's frame. */
-function origin(poses: Float64Array, link: number, frame: Pose | undefined): Vector3 {
-  const [w, x, y, z] = frame?.quaternion_wxyz ?? [1, 0, 0, 0];
-  const own = new Matrix4().compose(
-    new Vector3(...(frame?.position ?? [0, 0, 0])),
-    new Quaternion(x, y, z, w),
-    new Vector3(1, 1, 1),
-  );
-  return new Vector3().setFromMatrixPosition(linkMatrix(poses, link).multiply(own));
 }

@@ -1,29 +1,16 @@
 /** Dragging in the picture: a joint follows the pointer, or a link is pulled and the joints above it follow. */
 
-import { Matrix4, Plane, Quaternion, Vector3 } from "three";
+import { Plane, Vector3 } from "three";
 import type { Ray } from "three";
-import type { Pose, InverseSolution, InverseQuestion } from "../engine/protocol";
+import type { InverseSolution, InverseQuestion } from "../engine/protocol";
 import type { RobotModel } from "../model";
-
-function matrix(pose: Pose): Matrix4 {
-  const [w, x, y, z] = pose.quaternion_wxyz;
-  return new Matrix4().compose(new Vector3(...pose.position), new Quaternion(x, y, z, w), new Vector3(1, 1, 1));
-}
-
-export function linkMatrix(poses: Float64Array, link: number): Matrix4 {
-  const get = (k: number): number => poses[7 * link + k] ?? 0;
-  return new Matrix4().compose(
-    new Vector3(get(0), get(1), get(2)),
-    new Quaternion(get(4), get(5), get(6), get(3)),
-    new Vector3(1, 1, 1),
-  );
-}
+import { matrixOf, poseOf } from "./robot";
 
 /** The position and the axis of a joint, in the root link's frame. */
-export function jointFrame(model: RobotModel, poses: Float64Array, joint: number): { origin: Vector3; axis: Vector3 } {
+function jointFrame(model: RobotModel, poses: Float64Array, joint: number): { origin: Vector3; axis: Vector3 } {
   const found = model.joints[joint];
-  const parent = linkMatrix(poses, found?.parent ?? 0);
-  const frame = found?.origin ? parent.multiply(matrix(found.origin)) : parent;
+  const parent = poseOf(poses, found?.parent ?? 0);
+  const frame = found?.origin ? parent.multiply(matrixOf(found.origin)) : parent;
   const axis = new Vector3(...(found?.axis ?? [0, 0, 1])).transformDirection(frame);
   return { origin: new Vector3().setFromMatrixPosition(frame), axis };
 }
@@ -106,7 +93,7 @@ export function pull(
   solve: Solve,
 ): Drag | null {
   if (dofs.length === 0) return null;
-  const local = at.clone().applyMatrix4(linkMatrix(poses, link).invert());
+  const local = at.clone().applyMatrix4(poseOf(poses, link).invert());
   const facing = new Plane().setFromNormalAndCoplanarPoint(at.clone().sub(eye).normalize(), at);
   return {
     isSolved: true,

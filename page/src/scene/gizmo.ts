@@ -5,11 +5,11 @@ import { TransformControls } from "three/addons/controls/TransformControls.js";
 import type { App } from "../app";
 import { Latest } from "../latest";
 import { length } from "../ui/format";
-import { linkMatrix } from "./drag";
+import { poseOf } from "./robot";
 import type { View } from "./view";
 
 export const GIZMOS = ["translate", "rotate"] as const;
-export type GizmoKind = (typeof GIZMOS)[number];
+type GizmoKind = (typeof GIZMOS)[number];
 
 /** Position error above which a target counts as out of reach, metres. */
 const REACHED = 1e-4;
@@ -55,8 +55,7 @@ export class Gizmo {
       this.follow.ask({ position: this.target.position.clone(), quaternion: this.target.quaternion.clone() }),
     );
     app.store.on(["selected", "robot"], ({ robot, selected }) => {
-      const link = selected?.kind === "joint" ? (robot?.joints[selected.index]?.child ?? null) : selected?.index;
-      this.link = robot?.moves ? (link ?? null) : null;
+      this.link = robot?.moves ? robot.linkOf(selected) : null;
       this.place();
     });
     app.store.on(["poses"], () => {
@@ -86,7 +85,7 @@ export class Gizmo {
     const { poses } = this.app.store.now;
     const shown = this.kind !== null && this.link !== null && poses !== null;
     if (shown && this.link !== null) {
-      linkMatrix(poses, this.link).decompose(this.target.position, this.target.quaternion, this.target.scale);
+      poseOf(poses, this.link).decompose(this.target.position, this.target.quaternion, this.target.scale);
       this.target.updateMatrixWorld();
       this.controls.attach(this.target);
     } else {

@@ -18,7 +18,7 @@ import type { Box3 } from "three";
 const SHADED = 2;
 
 /** The largest number of the form 1, 2 or 5 times a power of ten that is not larger. */
-export function roundStep(length: number): number {
+function roundStep(length: number): number {
   const power = 10 ** Math.floor(Math.log10(length));
   const share = length / power;
   return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);

@@ -13,17 +13,17 @@ import {
 } from "three";
 import type { Material, Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-import type { Engine } from "../engine/client";
+import type { Engine, LinkMesh } from "../engine/client";
 import type { Progress } from "../engine/link";
 import type { ShapeKind, SourceShape, Shape } from "../engine/protocol";
-import type { LinkMesh } from "../engine/calls";
 import type { RobotModel } from "../model";
 import { LAYERS, sphereLevel } from "../state";
 import type { LayerKind } from "../state";
-import { rimmed } from "./rim";
+import { message } from "../ui/format";
 import type { MeshData, RobotScene } from "./robot";
-import { bare, dressed, isTextured } from "./sources";
+import { bare, dressed } from "./sources";
 
+const IMAGE = /\.(?:png|jpe?g|webp|bmp|gif|tga)$/i;
 const PLAIN = new Color(0x9aa3b2);
 /** Spheres of a level that are drawn. */
 const MOST_SPHERES = 5000;
@@ -31,7 +31,7 @@ const MOST_SPHERES = 5000;
 const AT_ONCE = 6;
 
 /** A colour for a piece: consecutive pieces differ. */
-export function pieceColor(link: number, piece: number): Color {
+function pieceColor(link: number, piece: number): Color {
   const hue = (0.58 + 0.61803 * piece + 0.137 * link) % 1;
   return new Color().setHSL(hue, 0.5, 0.56, SRGBColorSpace);
 }
@@ -180,30 +180,34 @@ async function pictures(
     for (let job = waiting.shift(); job; job = waiting.shift()) {
       const { link, piece, path, source } = job;
       try {
-        if (source) {
-          const [object] = source.path === null || !isTextured(source) ? await bare([source], engine, () => null) : [];
-          if (object instanceof Error) throw object;
-          const picture = object ?? (await dressed(source, engine));
-          dress(picture, layer, link, piece);
-          scene.add(layer, link, picture);
-          onProgress({ done: ++done, of: jobs.length, what: "meshes" });
-          continue;
-        }
-        if (path === null) throw new Error("its .glb is not in this URDD");
-        const bytes = await engine.ask("file", { path });
-        const { scene: picture } = await loader.parseAsync(bytes, "");
+        const picture = source ? await ofSource(source, engine) : await ofFile(path, engine, loader);
         dress(picture, layer, link, piece);
         scene.add(layer, link, picture);
       } catch (error) {
-        faults.push(
-          `${path ?? model.links[link]?.name ?? ""}: ${error instanceof Error ? error.message : String(error)}`,
-        );
+        faults.push(`${path ?? model.nameOf(link)}: ${message(error)}`);
       }
       onProgress({ done: ++done, of: jobs.length, what: "meshes" });
     }
   };
   await Promise.all(Array.from({ length: AT_ONCE }, work));
   return faults;
+}
+
+async function ofFile(path: string | null, engine: Engine, loader: GLTFLoader): Promise<Object3D> {
+  if (path === null) throw new Error("its .glb is not in this URDD");
+  return (await loader.parseAsync(await engine.ask("file", { path }), "")).scene;
+}
+
+async function ofSource(shape: SourceShape, engine: Engine): Promise<Object3D> {
+  if (shape.path !== null && isTextured(shape)) return dressed(shape, engine);
+  const [object] = await bare([shape], engine, () => null);
+  if (object instanceof Error) throw object;
+  return object ?? dressed(shape, engine);
+}
+
+/** Whether the shape looks different from its plain mesh, which has no textures. */
+function isTextured(shape: SourceShape): boolean {
+  return shape.side_files.some((file) => IMAGE.test(file));
 }
 
 /** The visual elements of each link that has a texture: a plain mesh has only colours. */
@@ -260,4 +264,23 @@ function simple(picture: Object3D): Mesh[] {
     mesh.add(...parts);
     return parts;
   });
+}
+
+/** Light along the outline, which makes a dark robot visible on a dark background. */
+const rim = { value: new Color(0) };
+
+export function rimColor(color: string): void {
+  rim.value.set(color);
+}
+
+/** The same material, with light along the outline. */
+function rimmed(material: MeshLambertMaterial): MeshLambertMaterial {
+  material.onBeforeCompile = (shader): void => {
+    shader.uniforms["rim"] = rim;
+    shader.fragmentShader = `uniform vec3 rim;\n${shader.fragmentShader.replace(
+      "#include <opaque_fragment>",
+      "outgoingLight += rim * (0.09 + pow(1.0 - abs(dot(normalize(normal), normalize(vViewPosition))), 2.0));\n#include <opaque_fragment>",
+    )}`;
+  };
+  return material;
 }

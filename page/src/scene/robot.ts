@@ -1,9 +1,15 @@
-/** The robot's links in the scene: poses, shapes, appearance. */
+/** The robot's links in the scene: poses, shapes, how each link looks, and transparent copies in other configurations. */
 
-import { Box3, Color, Group, Matrix4, Mesh, MeshLambertMaterial, Quaternion, Vector3 } from "three";
+import { Box3, Color, Group, Matrix4, Mesh, MeshLambertMaterial, Quaternion, Vector3, MeshBasicMaterial } from "three";
 import type { Object3D } from "three";
-import { LAYERS } from "../state";
-import type { Layer, LayerKind } from "../state";
+import { CHANGE_COLORS } from "../compared";
+import { placeKey } from "../contacts";
+import { partColor } from "../document";
+import { paintNow, paintOf } from "../findings";
+import type { Pose } from "../engine/protocol";
+import { LAYERS, ghosted } from "../state";
+import type { Layer, LayerKind, State } from "../state";
+import { color } from "../ui/theme";
 
 /** Maximum opacity of what casts no shadow. */
 const SHADOWLESS = 0.5;
@@ -27,8 +33,12 @@ export function poseOf(poses: Float64Array, link: number): Matrix4 {
   return new Matrix4().compose(new Vector3(x, y, z), new Quaternion(qx, qy, qz, w), new Vector3(1, 1, 1));
 }
 
+export function matrixOf({ position, quaternion_wxyz: [w, x, y, z] }: Pose): Matrix4 {
+  return new Matrix4().compose(new Vector3(...position), new Quaternion(x, y, z, w), new Vector3(1, 1, 1));
+}
+
 /** The appearance of a link in all layers: a tint, and a factor of its opacity. */
-export interface Look {
+interface Look {
   tint: Color | null;
   fade: number;
   paint: Color | null;
@@ -165,4 +175,107 @@ function paint(material: MeshLambertMaterial, data: MeshData, look: Look, opacit
   material.color.copy(look.paint ?? data.color);
   if (look.tint) material.emissive.copy(look.tint).multiplyScalar(0.45);
   else material.emissive.setScalar(0);
+}
+
+/** The appearance of faded links. */
+const FADED = 0.18;
+
+/** How each link looks: selected, in contact, painted by findings or by parts, or faded. */
+export function looks(state: Readonly<State>): (link: number, piece: number, layer: LayerKind) => Look {
+  const tints = tinted(state);
+  const paint = painted(state);
+  const { contacts, shapes } = state;
+  const touching = new Color(color("--error"));
+  const ghost = ghosted(state);
+  const isPainted = paintNow(state) !== null || state.compared !== null;
+  return (link, piece, layer) => {
+    const isExact = layer === shapes;
+    const place = layer === "pieces" || layer.startsWith("piece-") ? piece : 0;
+    // In the layer of the checked shapes, only the shapes that touch; in other layers the whole link.
+    const touches =
+      !isPainted &&
+      (isExact ? (contacts?.places.has(placeKey(link, place)) ?? false) : (contacts?.links.has(link) ?? false));
+    let fade = 1;
+    if (ghost) {
+      const isOne = ghost.some(([other, k]) => other === link && k === place);
+      fade = isExact && isOne ? 1 : ghost.some(([other]) => other === link) ? 0.3 : FADED;
+    }
+    return { tint: tints.get(link) ?? (touches ? touching : null), fade, paint: touches ? touching : paint(link) };
+  };
+}
+
+function tinted({ robot, selected, hovered, pair, tab }: Readonly<State>): Map<number, Color> {
+  const tints = new Map<number, Color>();
+  const tint = (link: number | null | undefined, name: string): void => {
+    if (link !== null && link !== undefined) tints.set(link, new Color(color(name)));
+  };
+  if (tab === "Skips") for (const [link] of pair ?? []) tint(link, "--mark");
+  for (const [part, own, parent] of [
+    [hovered, "--hover", "--parent"],
+    [selected, "--accent", "--parent"],
+  ] as const) {
+    if (part?.kind === "link") tint(part.index, own);
+    else if (part) {
+      tint(robot?.joints[part.index]?.parent, parent);
+      tint(robot?.joints[part.index]?.child, own === "--hover" ? "--child" : own);
+    }
+  }
+  return tints;
+}
+
+function painted(state: Readonly<State>): (link: number) => Color | null {
+  const { robot, byPart, report, compared } = state;
+  if (robot && compared) {
+    const changes = new Map(compared.changes.map(({ link, change }) => [link, change]));
+    return (link) => {
+      const change = changes.get(robot.nameOf(link));
+      return new Color(color(change ? CHANGE_COLORS[change] : "--open"));
+    };
+  }
+  const by = paintNow(state);
+  const parts = new Map<number, Color>();
+  if (byPart)
+    robot?.parts.forEach(({ links }, part) => {
+      for (const link of links) parts.set(link, new Color(partColor(part)));
+    });
+  if (!robot || by === null) return (link) => parts.get(link) ?? null;
+  const worst = paintOf(robot, report.report, by);
+  const names = { error: "--error", warning: "--warning", info: "--info", unverified: "--open" };
+  return (link) => {
+    const found = worst.get(link);
+    // If only one rule counts, a link that it does not name is neither good nor bad.
+    const rest = report.report && by === "worst" ? "--good" : "--open";
+    return new Color(color(found ? names[found] : rest));
+  };
+}
+
+const OPACITY = 0.22;
+
+/** Transparent copies of what is drawn of the robot, in other configurations. */
+export class Ghosts {
+  readonly group = new Group();
+
+  /** A copy for each of these poses of all links, each in a colour. The meshes' data is shared. */
+  show(scene: RobotScene | null, poses: readonly Float64Array[], colors: readonly string[]): void {
+    for (const child of this.group.children) if (child instanceof Mesh) (child.material as MeshBasicMaterial).dispose();
+    this.group.clear();
+    if (!scene || poses.length === 0) return;
+    const meshes = scene.meshes().flatMap((mesh) => {
+      const of = dataOf(mesh);
+      const link = of && scene.link(of.link);
+      return link
+        ? [{ mesh, link: of.link, within: link.matrixWorld.clone().invert().multiply(mesh.matrixWorld) }]
+        : [];
+    });
+    poses.forEach((all, k) => {
+      const color = new Color(colors[k] ?? "#fff");
+      const material = new MeshBasicMaterial({ color, opacity: OPACITY, transparent: true, depthWrite: false });
+      for (const { mesh, link, within } of meshes) {
+        const ghost = new Mesh(mesh.geometry, material);
+        ghost.matrixAutoUpdate = false;
+        ghost.matrix.copy(poseOf(all, link)).multiply(within);
+        this.group.add(ghost);
+      }
+    });
+  }
 }

@@ -17,7 +17,7 @@ import type { View } from "./view";
 const USUAL = new Color("#ffd166");
 const ALARMING = new Color("#ff5d5d");
 
-export interface Shown {
+interface Shown {
   points: readonly [Vector3, Vector3];
   text: string;
   alarming?: boolean;

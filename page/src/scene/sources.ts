@@ -24,14 +24,8 @@ import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import type { Engine } from "../engine/client";
 import type { SourceShape } from "../engine/protocol";
 
-const IMAGE = /\.(?:png|jpe?g|webp|bmp|gif|tga)$/i;
 const GLTF = /\.(?:glb|gltf)$/i;
 const SAID_NOTHING = new Color(0xb9c0ca);
-
-/** Whether the shape looks different from its plain mesh, which has no textures. */
-export function isTextured(shape: SourceShape): boolean {
-  return shape.side_files.some((file) => IMAGE.test(file));
-}
 
 /** An empty group with the element's pose in its link. */
 function placed(shape: SourceShape): Group {

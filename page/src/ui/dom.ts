@@ -37,17 +37,6 @@ export function button(
   return h("button", { type: "button", ...attributes, click }, ...(Array.isArray(label) ? label : [label]));
 }
 
-/** An SVG element. */
-export function svg<K extends keyof SVGElementTagNameMap>(
-  tag: K,
-  attributes: Attributes = {},
-  ...children: Child[]
-): SVGElementTagNameMap[K] {
-  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  apply(element, attributes, children);
-  return element;
-}
-
 /** Text in which words between backticks are code, as nodes. */
 export function prose(text: string): Node[] {
   return text

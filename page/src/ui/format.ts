@@ -1,6 +1,7 @@
 /** Readable numbers with units. */
 
-import type { Unit } from "../engine/protocol";
+import type { Unit, Loop, LoopErrors } from "../engine/protocol";
+import { keep, kept } from "./storage";
 
 const MINUS = "−";
 
@@ -33,23 +34,15 @@ const units: Units = { length: "mm", angle: "°" };
 
 /** The last choice of units. */
 export function keptUnits(): Units {
-  try {
-    const [length, angle] = (localStorage.getItem(KEY) ?? "").split(" ");
-    if (length === "m") units.length = "m";
-    if (angle === "rad") units.angle = "rad";
-  } catch {
-    // A sandboxed frame, as in a notebook, has no storage.
-  }
+  const [length, angle] = (kept(KEY) ?? "").split(" ");
+  if (length === "m") units.length = "m";
+  if (angle === "rad") units.angle = "rad";
   return { ...units };
 }
 
 export function keepUnits({ length, angle }: Units): void {
   Object.assign(units, { length, angle });
-  try {
-    localStorage.setItem(KEY, `${length} ${angle}`);
-  } catch {
-    // They last until the page is closed.
-  }
+  keep(KEY, `${length} ${angle}`);
 }
 
 /** A length in metres, in the displayed unit. */
@@ -85,7 +78,7 @@ function scale(unit: Unit): number {
   return units.length === "mm" ? 1000 : 1;
 }
 
-export function toShown(value: number, unit: Unit): number {
+function toShown(value: number, unit: Unit): number {
   return value * scale(unit);
 }
 
@@ -110,7 +103,7 @@ export function fineStep(unit: Unit): number {
   return unit === "m" ? 1e-4 : units.angle === "°" ? Math.PI / 1800 : 1e-3;
 }
 
-export function round(value: number, decimals: number): number {
+function round(value: number, decimals: number): number {
   const factor = 10 ** decimals;
   return Math.round(value * factor) / factor + 0;
 }
@@ -164,4 +157,21 @@ export function name(text: string): string {
     shown += hidden ? `\\u{${code.toString(16)}}` : char;
   }
   return shown;
+}
+
+/** What rounding leaves, m and rad. */
+const ROUNDING = 1e-8;
+
+/** Null where the loop is closed. */
+export function apart({ tolerances }: Loop, { position, rotation }: LoopErrors["gaps"][number]): string | null {
+  const [far, turned] = [position > tolerances[0] + ROUNDING, rotation > tolerances[1] + ROUNDING];
+  // The gap of a rotation is twice the sine of half its angle.
+  const angle = 2 * Math.asin(Math.min(1, rotation / 2));
+  const words = [far && length(position), turned && dofValue(angle, "rad")].filter((word) => word !== false);
+  return words.length > 0 ? words.join(" and ") : null;
+}
+
+/** What an error says. */
+export function message(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
 }

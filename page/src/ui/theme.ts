@@ -1,31 +1,16 @@
 /** The dark or light theme: that of the system, until the user chooses one. */
 
+import { keep, kept } from "./storage";
+
 const KEY = "urdd-theme";
 
-/** The last choice. A sandboxed frame, as in a notebook, has no storage: access throws. */
-function remembered(): string | null {
-  try {
-    return localStorage.getItem(KEY);
-  } catch {
-    return null;
-  }
-}
-
-function remember(theme: string): void {
-  try {
-    localStorage.setItem(KEY, theme);
-  } catch {
-    // It lasts until the page is closed.
-  }
-}
-
 export function startTheme(): void {
-  const chosen = remembered();
+  const chosen = kept(KEY);
   if (chosen === "dark" || chosen === "light") document.documentElement.dataset["theme"] = chosen;
   matchMedia("(prefers-color-scheme: light)").addEventListener("change", announce);
 }
 
-export function isLight(): boolean {
+function isLight(): boolean {
   const chosen = document.documentElement.dataset["theme"];
   return chosen ? chosen === "light" : matchMedia("(prefers-color-scheme: light)").matches;
 }
@@ -33,7 +18,7 @@ export function isLight(): boolean {
 export function toggleTheme(): void {
   const next = isLight() ? "dark" : "light";
   document.documentElement.dataset["theme"] = next;
-  remember(next);
+  keep(KEY, next);
   announce();
 }
 

@@ -1,7 +1,15 @@
+/** Files that the page offers for download, and files that it asks for. */
+
+import { h, button } from "./dom";
+
+/** Downloads a file. */
+export function offer(content: Blob, name: string): void {
+  const url = URL.createObjectURL(content);
+  h("a", { href: url, download: name.replace(/[^\p{L}\p{N}._-]+/gu, "_") }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 1000);
+}
+
 /** A button that asks for files, or for a folder. */
-
-import { button, h } from "./dom";
-
 export function picker(text: string, folder: boolean, choose: (files: File[], folder: boolean) => void): HTMLElement {
   const input = h("input", { type: "file", hidden: true, webkitdirectory: folder, multiple: true });
   input.addEventListener("change", () => {

@@ -1,10 +1,42 @@
-/** What the open robot lacks, and whether a drop has it. */
+/** What the open robot lacks, what is drawn instead, and whether a drop has it. */
 
-import type { State } from "../state";
-import { MAY_DESCRIBE } from "../endings";
-import type { Taken } from "../drop";
-import { USD_TEXT } from "./reader";
-import type { Given } from "./protocol";
+import { MAY_DESCRIBE, USD_TEXT } from "./drop";
+import type { Taken, Given } from "./drop";
+import type { Engine } from "./engine/client";
+import type { SourceShape } from "./engine/protocol";
+import type { RobotModel } from "./model";
+
+/** A mesh that the URDF references and the URDD lacks. */
+export interface AbsentMesh {
+  link: number;
+  geometry: "Visual" | "Collision";
+  /** As written in the URDF. */
+  filename: string;
+  /** Number of visual elements of the link that exist. */
+  others: number;
+}
+
+export async function absentMeshes(engine: Engine, robot: RobotModel): Promise<AbsentMesh[]> {
+  // Unknown for a legacy URDD, or if the URDF cannot be read. Findings report that.
+  const sources = await engine.ask("sources", {}).catch(() => []);
+  const files = new Set([...robot.files.map(({ path }) => path), ...(robot.entry.left_out ?? [])]);
+  const isAbsent = ({ shape, path }: SourceShape): boolean =>
+    shape?.Mesh !== undefined && (path === null || !files.has(path));
+  const there = sources.filter((shape) => shape.geometry === "Visual" && shape.shape !== null && !isAbsent(shape));
+  return sources.filter(isAbsent).map(({ link, geometry, shape }) => ({
+    link,
+    geometry,
+    filename: shape?.Mesh?.filename ?? "",
+    others: there.filter((other) => other.link === link).length,
+  }));
+}
+
+/** What is drawn instead of a mesh. */
+export function drawnInstead(robot: RobotModel, { link, geometry, others }: AbsentMesh): string {
+  if (geometry === "Collision") return "collision geometry";
+  if ((robot.about.meshes.plain?.[link]?.length ?? 0) === 0) return "nothing is drawn";
+  return others > 0 ? "the rest of the link is drawn" : "its collision geometry is drawn instead";
+}
 
 /** Maximum number of characters of a text that is searched for names, and of names. */
 const MAX_TEXT = 4e6;
@@ -44,8 +76,10 @@ export function unmet(text: string, files: readonly Given[]): string[] {
  * The files of a drop that are for the open robot: what is no robot by itself, the folder of a package that it lacks, or a
  * description that it includes.
  */
-export function missingFrom({ draft, absent, wanted }: Readonly<State>, taken: Taken): Given[] | null {
-  if (!draft) return null;
+export function missingFrom(
+  { absent, wanted }: { absent: readonly AbsentMesh[]; wanted: readonly string[] },
+  taken: Taken,
+): Given[] | null {
   if (taken.kind === "files") return taken.files.length > 0 ? taken.files : null;
   if (taken.kind !== "description") return null;
   const parts = taken.files.map(({ path }) => path.split("/"));
