@@ -5,14 +5,14 @@
 
 use std::fmt::{self, Write};
 
-use serde_json::{Map, Number, Value};
+use serde_json::{Number, Value};
 
 /// Longest YAML key without the `? ` form, characters.
 const LONGEST_SIMPLE_KEY: usize = 1000;
 
 /// Writes the canonical JSON of `value`.
 ///
-/// Recursive: limit the nesting of untrusted input to [`super::limits::DEPTH_LIMIT`].
+/// Recursive: limit the nesting of untrusted input to [`crate::limits::DEPTH_LIMIT`].
 ///
 /// # Errors
 /// Only those of `out`.
@@ -23,15 +23,12 @@ pub fn json(value: &Value, out: &mut impl Write) -> fmt::Result {
 
 /// The canonical JSON of `value` as a string.
 pub fn json_string(value: &Value) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = json(value, &mut text);
-    text
+    written(|text| json(value, text))
 }
 
 /// Writes the canonical YAML of `value`.
 ///
-/// Recursive: limit the nesting of untrusted input to [`super::limits::DEPTH_LIMIT`].
+/// Recursive: limit the nesting of untrusted input to [`crate::limits::DEPTH_LIMIT`].
 ///
 /// # Errors
 /// Only those of `out`.
@@ -46,16 +43,18 @@ pub fn yaml(value: &Value, out: &mut impl Write) -> fmt::Result {
 
 /// The canonical YAML of `value` as a string.
 pub fn yaml_string(value: &Value) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = yaml(value, &mut text);
-    text
+    written(|text| yaml(value, text))
 }
 
 /// The inline form of a scalar or an inline list in YAML, for messages.
 pub(super) fn yaml_inline(value: &Value) -> String {
+    written(|text| inline(value, Language::Yaml, text))
+}
+
+/// Writes into a String, which cannot fail.
+fn written(write: impl FnOnce(&mut String) -> fmt::Result) -> String {
     let mut text = String::new();
-    let _ = inline(value, Language::Yaml, &mut text);
+    let _ = write(&mut text);
     text
 }
 
@@ -124,7 +123,16 @@ pub(super) fn json_node(value: &Value, indent: usize, out: &mut impl Write) -> f
 /// Writes a value that is not inline. With `begun`, the first line is already indented.
 fn yaml_block(value: &Value, indent: usize, begun: bool, out: &mut impl Write) -> fmt::Result {
     match value {
-        Value::Object(map) => yaml_members(map, indent, begun, out),
+        Value::Object(map) => {
+            for (index, (key, member)) in map.iter().enumerate() {
+                if index > 0 || !begun {
+                    spaces(indent, out)?;
+                }
+                written_key(key, indent, out)?;
+                yaml_rest(member, indent + 2, out)?;
+            }
+            Ok(())
+        }
         Value::Array(list) => {
             list.iter().try_for_each(|element| yaml_element(element, indent, out))
         }
@@ -144,22 +152,6 @@ pub(super) fn yaml_element(element: &Value, indent: usize, out: &mut impl Write)
     }
 }
 
-fn yaml_members(
-    map: &Map<String, Value>,
-    indent: usize,
-    begun: bool,
-    out: &mut impl Write,
-) -> fmt::Result {
-    for (index, (key, member)) in map.iter().enumerate() {
-        if index > 0 || !begun {
-            spaces(indent, out)?;
-        }
-        written_key(key, indent, out)?;
-        yaml_rest(member, indent + 2, out)?;
-    }
-    Ok(())
-}
-
 /// Writes the key of a member on its own line, up to the colon.
 pub(super) fn yaml_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result {
     spaces(indent, out)?;
@@ -169,23 +161,15 @@ pub(super) fn yaml_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::R
 fn written_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result {
     // An escape is up to six characters for one byte, so shorter keys cannot reach the limit.
     if key.len() > LONGEST_SIMPLE_KEY / 6 {
-        write_long_key(key, indent, out)?;
+        let long = written(|long| write_string(key, Language::Yaml, long));
+        match long.chars().count() > LONGEST_SIMPLE_KEY {
+            true => write!(out, "? {long}\n{:indent$}", "")?,
+            false => out.write_str(&long)?,
+        }
     } else {
         write_string(key, Language::Yaml, out)?;
     }
     out.write_char(':')
-}
-
-fn write_long_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result {
-    let mut written = String::new();
-    write_string(key, Language::Yaml, &mut written)?;
-    if written.chars().count() <= LONGEST_SIMPLE_KEY {
-        return out.write_str(&written);
-    }
-    out.write_str("? ")?;
-    out.write_str(&written)?;
-    out.write_char('\n')?;
-    spaces(indent, out)
 }
 
 /// Writes the value after the colon of a member or the dash of an element.
@@ -221,9 +205,7 @@ pub enum Language {
 
 /// A string in double quotes, as YAML.
 pub fn yaml_quoted(text: &str) -> String {
-    let mut quoted = String::new();
-    let _ = write_quoted(text, Language::Yaml, &mut quoted);
-    quoted
+    written(|quoted| write_quoted(text, Language::Yaml, quoted))
 }
 
 /// Writes a string: plain if the language allows it and it is safe, else quoted.
