@@ -88,36 +88,43 @@ fn inline(value: &Value, language: Language, out: &mut impl Write) -> fmt::Resul
 }
 
 /// Writes a value as JSON, starting at the current column.
-pub(super) fn json_node(value: &Value, indent: usize, out: &mut impl Write) -> fmt::Result {
+pub(super) fn json_node<W: Write>(value: &Value, indent: usize, out: &mut W) -> fmt::Result {
     match value {
         Value::Array(list) if !is_inline(value) => {
-            let mut before = "[\n";
-            for element in list {
-                out.write_str(before)?;
-                before = ",\n";
-                spaces(indent + 2, out)?;
-                json_node(element, indent + 2, out)?;
-            }
-            out.write_char('\n')?;
-            spaces(indent, out)?;
-            out.write_char(']')
+            json_block(['[', ']'], list, indent, out, |element, out| {
+                json_node(element, indent + 2, out)
+            })
         }
         Value::Object(map) if !map.is_empty() => {
-            let mut before = "{\n";
-            for (key, member) in map {
-                out.write_str(before)?;
-                before = ",\n";
-                spaces(indent + 2, out)?;
+            json_block(['{', '}'], map, indent, out, |(key, member), out| {
                 write_quoted(key, Language::Json, out)?;
                 out.write_str(": ")?;
-                json_node(member, indent + 2, out)?;
-            }
-            out.write_char('\n')?;
-            spaces(indent, out)?;
-            out.write_char('}')
+                json_node(member, indent + 2, out)
+            })
         }
         _ => inline(value, Language::Json, out),
     }
+}
+
+/// Writes the elements of a list, or the members of an object, each on a line of its own. There is at least one.
+pub(super) fn json_block<T, W: Write>(
+    [open, close]: [char; 2],
+    items: impl IntoIterator<Item = T>,
+    indent: usize,
+    out: &mut W,
+    mut write: impl FnMut(T, &mut W) -> fmt::Result,
+) -> fmt::Result {
+    let mut before = open;
+    for item in items {
+        out.write_char(before)?;
+        out.write_char('\n')?;
+        before = ',';
+        spaces(indent + 2, out)?;
+        write(item, out)?;
+    }
+    out.write_char('\n')?;
+    spaces(indent, out)?;
+    out.write_char(close)
 }
 
 /// Writes a value that is not inline. With `begun`, the first line is already indented.

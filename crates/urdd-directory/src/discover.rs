@@ -1,9 +1,9 @@
 //! Which folders are URDDs, and which files in them are theirs.
 
 use std::collections::BTreeSet;
+use std::fs;
 use std::ops::Bound;
 use std::path::{Path, PathBuf};
-use std::{fmt, fs};
 
 use serde_json::Value;
 use thiserror::Error;
@@ -260,15 +260,10 @@ fn is_in_module(path: &str) -> bool {
 }
 
 /// A source restricted to the files of a URDD.
+#[derive(Debug)]
 struct Carried {
     root: Root,
     files: BTreeSet<String>,
-}
-
-impl fmt::Debug for Carried {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} files of {:?}", self.files.len(), self.root)
-    }
 }
 
 impl Source for Carried {

@@ -28,6 +28,7 @@ pub mod target_lock;
 pub mod writer;
 pub mod yaml;
 
+// Parts of these, by names of their own.
 pub use discover as carried;
 pub use file_entry as digest;
 pub use file_type::{self as layout, self as robot_file};

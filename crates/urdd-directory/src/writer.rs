@@ -99,32 +99,25 @@ impl Document {
     }
 }
 
-fn json_object(
+fn json_object<W: fmt::Write>(
     members: &[(&str, Member)],
     indent: usize,
-    out: &mut impl fmt::Write,
+    out: &mut W,
 ) -> fmt::Result {
     let inner = indent + 2;
-    let mut before = "{\n";
-    for (name, member) in members {
-        write!(out, "{before}{:inner$}\"{name}\": ", "")?;
-        before = ",\n";
+    canonical::json_block(['{', '}'], members, indent, out, |(name, member), out| {
+        write!(out, "\"{name}\": ")?;
         match member {
-            Member::Value(value) => canonical::json_node(value, inner, out)?,
-            Member::Object(members) => json_object(members, inner, out)?,
-            Member::Rows(rows) if rows.length == 0 => out.write_str("[]")?,
+            Member::Value(value) => canonical::json_node(value, inner, out),
+            Member::Object(members) => json_object(members, inner, out),
+            Member::Rows(rows) if rows.length == 0 => out.write_str("[]"),
             Member::Rows(rows) => {
-                let mut before = "[\n";
-                for idx in 0..rows.length {
-                    write!(out, "{before}{:inner$}  ", "")?;
-                    before = ",\n";
-                    canonical::json_node(&rows.row(idx)?, inner + 2, out)?;
-                }
-                write!(out, "\n{:inner$}]", "")?;
+                canonical::json_block(['[', ']'], 0..rows.length, inner, out, |idx, out| {
+                    canonical::json_node(&rows.row(idx)?, inner + 2, out)
+                })
             }
         }
-    }
-    write!(out, "\n{:indent$}}}", "")
+    })
 }
 
 fn yaml_members(

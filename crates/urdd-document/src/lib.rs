@@ -19,6 +19,7 @@ pub mod tree;
 pub mod urdd;
 pub mod usable_geometry;
 
+// Parts of these, by names of their own.
 pub use load as kept;
 pub use module as carried_urdf;
 pub use paths as mesh_files;

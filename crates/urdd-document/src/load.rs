@@ -94,7 +94,7 @@ fn profile(metadata: &MetadataFile, modules: &[Arc<Module>]) -> Profile {
 }
 
 fn read_metadata(root: &Root) -> MetadataFile {
-    let json = JsonFile::read(root, ROOT_METADATA);
+    let json = JsonFile::of(root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES));
     let mut file = MetadataFile { json, violations: Vec::new(), metadata: None };
     if let JsonFile::Read(document) = &file.json {
         (file.metadata, file.violations) = metadata_of(&document.value);
@@ -203,10 +203,9 @@ fn read_module(
         is_draft: false,
     };
     if module.document.is_some() {
-        module.mirror = match yaml {
-            Some(_) => Mirror::Compared(TextFaults::default()),
-            None => Mirror::NotCompared,
-        };
+        if yaml.is_some() {
+            module.mirror = Mirror::Compared(TextFaults::default());
+        }
         return module;
     }
     if let (Some(spec), Some(document)) = (module.spec, module.json.document()) {
@@ -244,7 +243,7 @@ fn take(
 }
 
 fn read_yaml(root: &Root, listing: &Listing, file: &str) -> Result<Vec<u8>, ReadError> {
-    if !listing.has_file(file) && listing.get(file).is_none() {
+    if listing.get(file).is_none() {
         return Err(ReadError::Missing);
     }
     root.read(file, MAX_DOCUMENT_BYTES)
@@ -293,11 +292,9 @@ pub fn find_spec(kind: ModuleKind, version: Option<&str>) -> (Option<&'static Mo
         .filter(|spec| spec.kind == kind && version.major >= 1)
         .filter_map(|spec| semver::Version::parse(spec.version).ok().map(|v| (v, spec)))
         .filter(|(known, _)| known.major == version.major && *known < version)
-        .max_by(|a, b| a.0.cmp(&b.0));
-    match newest {
-        Some((_, spec)) => (Some(spec), true),
-        None => (None, false),
-    }
+        .max_by(|a, b| a.0.cmp(&b.0))
+        .map(|(_, spec)| spec);
+    (newest, newest.is_some())
 }
 
 /// A URDD as it is when this is made: each module is read when it is first asked for, and kept. One that changed

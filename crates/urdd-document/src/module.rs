@@ -7,7 +7,7 @@ use thiserror::Error;
 use crate::schema_check::SchemaViolation;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::json::{self, JsonDocument};
-use urdd_directory::limits::{MAX_DOCUMENT_BYTES, MAX_URDF_BYTES};
+use urdd_directory::limits::MAX_URDF_BYTES;
 use urdd_directory::position;
 use urdd_directory::root::{EntryKind, Listing, ReadError, Root};
 use urdd_directory::text_fault::TextFaults;
@@ -30,10 +30,6 @@ pub enum JsonFile {
 }
 
 impl JsonFile {
-    pub(crate) fn read(root: &Root, path: &str) -> Self {
-        Self::of(root.read(path, MAX_DOCUMENT_BYTES))
-    }
-
     pub(crate) fn of(bytes: Result<Vec<u8>, ReadError>) -> Self {
         match bytes {
             Err(ReadError::Missing) => JsonFile::Missing,

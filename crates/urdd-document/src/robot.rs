@@ -137,18 +137,6 @@ pub struct Mimic {
 }
 
 impl Robot {
-    fn new(name: String, links: Vec<Link>, joints: Vec<Joint>) -> Self {
-        let mut robot = Robot { name, links, joints, ..Robot::default() };
-        // For duplicate names, the first one counts; URD002 and URD003 report them.
-        for (index, link) in robot.links.iter().enumerate() {
-            robot.link_by_name.entry(link.name.clone()).or_insert(index);
-        }
-        for (index, joint) in robot.joints.iter().enumerate() {
-            robot.joint_by_name.entry(joint.name.clone()).or_insert(index);
-        }
-        robot
-    }
-
     /// Index of a link.
     pub fn link(&self, name: &str) -> Option<usize> {
         self.link_by_name.get(name).copied()
@@ -222,11 +210,20 @@ pub fn of_urdf(urdf: &v1::UrdfModule) -> Robot {
     let quaternions = has_quaternions(urdf.version.as_deref());
     let link = |link| from_v1_link(link, quaternions);
     let joint = |joint| from_v1_joint(joint, quaternions);
-    Robot::new(
-        urdf.name.clone(),
-        urdf.links.iter().map(link).collect(),
-        urdf.joints.iter().map(joint).collect(),
-    )
+    let mut robot = Robot {
+        name: urdf.name.clone(),
+        links: urdf.links.iter().map(link).collect(),
+        joints: urdf.joints.iter().map(joint).collect(),
+        ..Robot::default()
+    };
+    // For duplicate names, the first one counts; URD002 and URD003 report them.
+    for (index, link) in robot.links.iter().enumerate() {
+        robot.link_by_name.entry(link.name.clone()).or_insert(index);
+    }
+    for (index, joint) in robot.joints.iter().enumerate() {
+        robot.joint_by_name.entry(joint.name.clone()).or_insert(index);
+    }
+    robot
 }
 
 fn from_v1_link(link: &v1::Link, quaternions: bool) -> Link {

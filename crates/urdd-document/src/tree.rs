@@ -192,6 +192,7 @@ impl Mimics {
 }
 
 /// A robot, its tree, its rigid groups and its mimics.
+#[derive(Default)]
 pub struct Mechanism {
     robot: Robot,
     tree: OnceLock<Option<Tree>>,
@@ -202,12 +203,7 @@ pub struct Mechanism {
 impl Mechanism {
     /// That of a robot.
     pub fn new(robot: Robot) -> Self {
-        Mechanism {
-            robot,
-            tree: OnceLock::new(),
-            mimics: OnceLock::new(),
-            rigid_groups: OnceLock::new(),
-        }
+        Mechanism { robot, ..Mechanism::default() }
     }
 
     /// The robot.

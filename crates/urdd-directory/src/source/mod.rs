@@ -1,6 +1,11 @@
 //! Storage of files by path: a folder, memory, or a zip archive. Of a URDD, and of what is around a description that is
 //! not on the disk. What each answers: the list of its files, and why one cannot be read.
 
+mod archive;
+mod disk;
+mod memory;
+mod zip_list;
+
 use std::fmt;
 use std::io::{self, Read};
 use std::path::Path;
@@ -12,11 +17,6 @@ use crate::path::PathFault;
 pub use archive::{Archive, is_archive};
 pub use disk::{Disk, Stamp, is_urdd};
 pub use memory::{Item, Lend, Memory, Node, Tree};
-
-mod archive;
-mod disk;
-mod memory;
-mod zip_list;
 
 /// A file open for reading.
 pub type OpenFile = Box<dyn Read + Send>;

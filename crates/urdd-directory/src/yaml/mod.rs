@@ -1,5 +1,14 @@
 //! Checks that a YAML file mirrors a JSON document.
 
+mod compare;
+mod open;
+pub mod places;
+pub mod scalar;
+/// Reads a YAML file of another program.
+pub mod words {
+    pub use super::places::{WordsFault, read_words as read};
+}
+
 use std::collections::HashSet;
 use std::fmt::{self, Write};
 
@@ -10,15 +19,6 @@ use serde_json::{Map, Value};
 use crate::canonical;
 use crate::json::{Seed, State, decode};
 use crate::position::{LineIndex, TextFault, TextFaultKind, TextFaults};
-
-mod compare;
-mod open;
-pub mod places;
-pub mod scalar;
-/// Reads a YAML file of another program.
-pub mod words {
-    pub use super::places::{WordsFault, read_words as read};
-}
 
 /// Reports everything that prevents every reader from reading the YAML file as `json`.
 ///

@@ -184,7 +184,6 @@ pub fn apply_tag(tag: &Tag, node: Node, target: &mut Target<'_>) -> String {
     }
 }
 
-/// The fault for a tag.
 pub fn tag_fault(tag: &Tag, instead: &str) -> TextFault {
     let name = tag.suffix.as_str();
     let written = if tag.is_yaml_core_schema() {
@@ -295,7 +294,6 @@ pub fn missing_key(key: &str, value: &Value) -> TextFault {
     TextFault::new(TextFaultKind::YamlDiffers, message).expecting(describe(value))
 }
 
-/// A duplicate key.
 pub fn repeated_key(key: &str) -> TextFault {
     let message = format!(
         "the key `{}` occurs twice in its mapping: readers differ in which one they keep; remove one",

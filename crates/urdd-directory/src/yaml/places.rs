@@ -175,7 +175,7 @@ fn scalar(text: &str, is_plain: bool) -> Option<Value> {
     })
 }
 
-/// Why such a file cannot be read, and where.
+/// Why a file of another program cannot be read, and where.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WordsFault {
     /// From 1.
