@@ -60,8 +60,8 @@ const JSON: &[(&str, &str)] = &[
     ("crates/urdd-conformance/src/suite.rs", "the suite's own"),
     ("crates/urdd-directory/src/json.rs", "the door: MAX_DOCUMENT_BYTES and DEPTH_LIMIT"),
     ("crates/urdd-directory/src/json_scan.rs", "a key of a document"),
+    ("crates/urdd-directory/src/yaml/mod.rs", "a document that was read"),
     ("crates/urdd-directory/src/yaml/places.rs", "a number of a document"),
-    ("crates/urdd-directory/src/yaml/transcript.rs", "a document that was read"),
     ("crates/urdd-findings/src/baseline.rs", "MAX_BASELINE_BYTES"),
     ("crates/urdd-format/src/registry.rs", "a document within MAX_DOCUMENT_BYTES"),
     ("crates/urdd-format/src/schema.rs", "the program's own"),
@@ -272,11 +272,11 @@ fn files_with(words: &[&str]) -> BTreeSet<String> {
 
 /// Who stores files, or shows some of those of another. What reads URDDs and what reads descriptions ask these alone.
 const SOURCES: &[(&str, &str)] = &[
-    ("crates/urdd-directory/src/carried.rs", "the files of a URDD among others"),
+    ("crates/urdd-directory/src/discover.rs", "the files of a URDD among others"),
     ("crates/urdd-directory/src/root.rs", "any of them"),
     ("crates/urdd-directory/src/source/archive.rs", "a zip archive"),
+    ("crates/urdd-directory/src/source/disk.rs", "a folder on disk"),
     ("crates/urdd-directory/src/source/memory.rs", "memory, and what a browser gives"),
-    ("crates/urdd-directory/src/source/snapshot.rs", "a folder on disk"),
 ];
 
 #[test]

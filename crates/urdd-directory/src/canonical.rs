@@ -5,14 +5,14 @@
 
 use std::fmt::{self, Write};
 
-use serde_json::{Map, Number, Value};
+use serde_json::{Number, Value};
 
 /// Longest YAML key without the `? ` form, characters.
 const LONGEST_SIMPLE_KEY: usize = 1000;
 
 /// Writes the canonical JSON of `value`.
 ///
-/// Recursive: limit the nesting of untrusted input to [`super::limits::DEPTH_LIMIT`].
+/// Recursive: limit the nesting of untrusted input to [`crate::limits::DEPTH_LIMIT`].
 ///
 /// # Errors
 /// Only those of `out`.
@@ -23,15 +23,12 @@ pub fn json(value: &Value, out: &mut impl Write) -> fmt::Result {
 
 /// The canonical JSON of `value` as a string.
 pub fn json_string(value: &Value) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = json(value, &mut text);
-    text
+    written(|text| json(value, text))
 }
 
 /// Writes the canonical YAML of `value`.
 ///
-/// Recursive: limit the nesting of untrusted input to [`super::limits::DEPTH_LIMIT`].
+/// Recursive: limit the nesting of untrusted input to [`crate::limits::DEPTH_LIMIT`].
 ///
 /// # Errors
 /// Only those of `out`.
@@ -46,16 +43,18 @@ pub fn yaml(value: &Value, out: &mut impl Write) -> fmt::Result {
 
 /// The canonical YAML of `value` as a string.
 pub fn yaml_string(value: &Value) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = yaml(value, &mut text);
-    text
+    written(|text| yaml(value, text))
 }
 
 /// The inline form of a scalar or an inline list in YAML, for messages.
 pub(super) fn yaml_inline(value: &Value) -> String {
+    written(|text| inline(value, Language::Yaml, text))
+}
+
+/// Writes into a String, which cannot fail.
+fn written(write: impl FnOnce(&mut String) -> fmt::Result) -> String {
     let mut text = String::new();
-    let _ = inline(value, Language::Yaml, &mut text);
+    let _ = write(&mut text);
     text
 }
 
@@ -89,42 +88,58 @@ fn inline(value: &Value, language: Language, out: &mut impl Write) -> fmt::Resul
 }
 
 /// Writes a value as JSON, starting at the current column.
-pub(super) fn json_node(value: &Value, indent: usize, out: &mut impl Write) -> fmt::Result {
+pub(super) fn json_node<W: Write>(value: &Value, indent: usize, out: &mut W) -> fmt::Result {
     match value {
         Value::Array(list) if !is_inline(value) => {
-            let mut before = "[\n";
-            for element in list {
-                out.write_str(before)?;
-                before = ",\n";
-                spaces(indent + 2, out)?;
-                json_node(element, indent + 2, out)?;
-            }
-            out.write_char('\n')?;
-            spaces(indent, out)?;
-            out.write_char(']')
+            json_block(['[', ']'], list, indent, out, |element, out| {
+                json_node(element, indent + 2, out)
+            })
         }
         Value::Object(map) if !map.is_empty() => {
-            let mut before = "{\n";
-            for (key, member) in map {
-                out.write_str(before)?;
-                before = ",\n";
-                spaces(indent + 2, out)?;
+            json_block(['{', '}'], map, indent, out, |(key, member), out| {
                 write_quoted(key, Language::Json, out)?;
                 out.write_str(": ")?;
-                json_node(member, indent + 2, out)?;
-            }
-            out.write_char('\n')?;
-            spaces(indent, out)?;
-            out.write_char('}')
+                json_node(member, indent + 2, out)
+            })
         }
         _ => inline(value, Language::Json, out),
     }
 }
 
+/// Writes the elements of a list, or the members of an object, each on a line of its own. There is at least one.
+pub(super) fn json_block<T, W: Write>(
+    [open, close]: [char; 2],
+    items: impl IntoIterator<Item = T>,
+    indent: usize,
+    out: &mut W,
+    mut write: impl FnMut(T, &mut W) -> fmt::Result,
+) -> fmt::Result {
+    let mut before = open;
+    for item in items {
+        out.write_char(before)?;
+        out.write_char('\n')?;
+        before = ',';
+        spaces(indent + 2, out)?;
+        write(item, out)?;
+    }
+    out.write_char('\n')?;
+    spaces(indent, out)?;
+    out.write_char(close)
+}
+
 /// Writes a value that is not inline. With `begun`, the first line is already indented.
 fn yaml_block(value: &Value, indent: usize, begun: bool, out: &mut impl Write) -> fmt::Result {
     match value {
-        Value::Object(map) => yaml_members(map, indent, begun, out),
+        Value::Object(map) => {
+            for (index, (key, member)) in map.iter().enumerate() {
+                if index > 0 || !begun {
+                    spaces(indent, out)?;
+                }
+                written_key(key, indent, out)?;
+                yaml_rest(member, indent + 2, out)?;
+            }
+            Ok(())
+        }
         Value::Array(list) => {
             list.iter().try_for_each(|element| yaml_element(element, indent, out))
         }
@@ -144,22 +159,6 @@ pub(super) fn yaml_element(element: &Value, indent: usize, out: &mut impl Write)
     }
 }
 
-fn yaml_members(
-    map: &Map<String, Value>,
-    indent: usize,
-    begun: bool,
-    out: &mut impl Write,
-) -> fmt::Result {
-    for (index, (key, member)) in map.iter().enumerate() {
-        if index > 0 || !begun {
-            spaces(indent, out)?;
-        }
-        written_key(key, indent, out)?;
-        yaml_rest(member, indent + 2, out)?;
-    }
-    Ok(())
-}
-
 /// Writes the key of a member on its own line, up to the colon.
 pub(super) fn yaml_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result {
     spaces(indent, out)?;
@@ -169,23 +168,15 @@ pub(super) fn yaml_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::R
 fn written_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result {
     // An escape is up to six characters for one byte, so shorter keys cannot reach the limit.
     if key.len() > LONGEST_SIMPLE_KEY / 6 {
-        write_long_key(key, indent, out)?;
+        let long = written(|long| write_string(key, Language::Yaml, long));
+        match long.chars().count() > LONGEST_SIMPLE_KEY {
+            true => write!(out, "? {long}\n{:indent$}", "")?,
+            false => out.write_str(&long)?,
+        }
     } else {
         write_string(key, Language::Yaml, out)?;
     }
     out.write_char(':')
-}
-
-fn write_long_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result {
-    let mut written = String::new();
-    write_string(key, Language::Yaml, &mut written)?;
-    if written.chars().count() <= LONGEST_SIMPLE_KEY {
-        return out.write_str(&written);
-    }
-    out.write_str("? ")?;
-    out.write_str(&written)?;
-    out.write_char('\n')?;
-    spaces(indent, out)
 }
 
 /// Writes the value after the colon of a member or the dash of an element.
@@ -221,9 +212,7 @@ pub enum Language {
 
 /// A string in double quotes, as YAML.
 pub fn yaml_quoted(text: &str) -> String {
-    let mut quoted = String::new();
-    let _ = write_quoted(text, Language::Yaml, &mut quoted);
-    quoted
+    written(|quoted| write_quoted(text, Language::Yaml, quoted))
 }
 
 /// Writes a string: plain if the language allows it and it is safe, else quoted.

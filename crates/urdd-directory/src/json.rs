@@ -6,10 +6,9 @@ use std::fmt;
 use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Number, Value};
 
-use super::json_scan;
-use super::limits::DEPTH_LIMIT;
-use super::position::{LineIndex, position};
-use super::text_fault::{TextFault, TextFaultKind, TextFaults, UnreadableText};
+use crate::json_scan;
+use crate::limits::DEPTH_LIMIT;
+use crate::position::{LineIndex, TextFault, TextFaultKind, TextFaults, UnreadableText, position};
 
 /// A JSON file with a readable value.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,7 +42,7 @@ pub fn read(bytes: &[u8]) -> Result<JsonDocument, UnreadableText> {
             return Err(unreadable(faults, explain(&text, &error, state.too_deep.get())));
         }
     };
-    if state.has_repeated_key() {
+    if state.repeated_key.get() {
         report_repeated_keys(&text, &mut faults);
     }
     Ok(JsonDocument { text, value, faults })
@@ -72,15 +71,9 @@ fn unreadable(mut faults: TextFaults, fault: TextFault) -> UnreadableText {
 /// Faults noted while parsing. A second pass finds their positions if needed.
 #[derive(Default)]
 pub(super) struct State {
-    repeated_key: Cell<bool>,
-    too_deep: Cell<bool>,
-}
-
-impl State {
     /// Whether an object has duplicate members.
-    pub fn has_repeated_key(&self) -> bool {
-        self.repeated_key.get()
-    }
+    pub repeated_key: Cell<bool>,
+    too_deep: Cell<bool>,
 }
 
 /// Builds a [`Value`] like serde_json, and notes faults that serde_json ignores.
@@ -255,15 +248,8 @@ fn reason(error: &serde_json::Error) -> String {
 }
 
 fn offset_of(text: &str, line: usize, column: usize) -> usize {
-    let start = if line <= 1 {
-        0
-    } else {
-        text.bytes()
-            .enumerate()
-            .filter(|&(_, byte)| byte == b'\n')
-            .nth(line - 2)
-            .map_or(text.len(), |(at, _)| at + 1)
-    };
+    let before = text.split_inclusive('\n').take(line.saturating_sub(1));
+    let start: usize = before.map(str::len).sum();
     let mut offset = (start + column.saturating_sub(1)).min(text.len());
     while !text.is_char_boundary(offset) {
         offset -= 1;

@@ -56,10 +56,6 @@ struct Scan<'a> {
 }
 
 impl<'a> Scan<'a> {
-    fn new(text: &'a str) -> Self {
-        Self { text, at: 0 }
-    }
-
     fn peek(&self) -> Option<u8> {
         self.text.as_bytes().get(self.at).copied()
     }
@@ -169,7 +165,7 @@ struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     fn new(text: &'a str, with_keys: bool) -> Self {
-        Self { scan: Scan::new(text), open: Vec::new(), with_keys }
+        Self { scan: Scan { text, at: 0 }, open: Vec::new(), with_keys }
     }
 
     fn next(&mut self) -> Option<Token> {
@@ -244,7 +240,7 @@ pub fn find_values(text: &str, pointers: &[&str]) -> Vec<Option<usize>> {
         place.numbers.push(number);
     }
     let mut found = vec![None; pointers.len()];
-    wanted.visit(&mut Scan::new(text), &mut found);
+    wanted.visit(&mut Scan { text, at: 0 }, &mut found);
     found
 }
 

@@ -3,39 +3,38 @@
 //! The files of a URDD on disk, in memory or in a zip archive: discovery, listing, safe reading and writing. Also JSON
 //! and YAML as text, and the folder of published schemas.
 
-pub mod account;
 pub mod cancellation;
 pub mod canonical;
-pub mod carried;
-pub mod digest;
 pub mod discover;
-pub mod document;
 pub mod export_toml;
 pub mod file_entry;
 pub mod file_type;
 pub mod json;
 pub mod json_scan;
-pub mod layout;
 pub mod limits;
-pub mod listing;
 pub mod loops_toml;
 pub mod metadata;
 pub mod outputs;
 pub mod path;
 pub mod position;
 pub mod range;
-pub mod read_error;
 pub mod regular;
-pub mod replacement;
-pub mod robot_file;
 pub mod root;
 pub mod schema_files;
 pub mod source;
 pub mod staging;
 pub mod take;
 pub mod target_lock;
-pub mod temporary;
-pub mod text_fault;
-mod toml_text;
 pub mod writer;
 pub mod yaml;
+
+// Parts of these, by names of their own.
+pub use discover as carried;
+pub use file_entry as digest;
+pub use file_type::{self as layout, self as robot_file};
+pub use limits as account;
+pub use metadata as replacement;
+pub use position as text_fault;
+pub use source::{self as listing, self as read_error};
+pub use target_lock as temporary;
+pub use writer as document;

@@ -6,12 +6,11 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Deserializer, Serialize};
-use toml::{Spanned, Table};
+use toml::Spanned;
 use urdd_format::loops::LoopKind;
 use urdd_format::short::Short;
 
-use crate::export_toml::Name;
-use crate::toml_text::printable;
+use crate::export_toml::{Name, text_of};
 
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -68,7 +67,7 @@ impl File {
     /// # Errors
     /// None are known: each value has a form in TOML.
     pub fn to_text(&self) -> Result<String, toml::ser::Error> {
-        Ok(printable(&toml::to_string(&Table::try_from(self)?)?))
+        text_of(self)
     }
 }
 

@@ -1,5 +1,6 @@
-//! Changes `urdd.json` of a URDD: updates sizes and hashes to match the files, or adds a module of one's own.
+//! Changes a URDD in its folder: sizes and hashes in `urdd.json`, a module of one's own, or some files, all or none.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,18 +8,16 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use thiserror::Error;
 
-use super::canonical;
-use super::digest;
-use super::discover::ROOT_METADATA;
-use super::file_entry;
-use super::json;
-use super::limits::MAX_DOCUMENT_BYTES;
-use super::root::{ReadError, Root};
-use super::staging::{Staging, StagingError};
-use super::target_lock::TargetLock;
-use super::text_fault::UnreadableText;
-use super::writer::Writer;
 use crate::cancellation::Cancellation;
+use crate::file_type::ROOT_METADATA;
+use crate::limits::MAX_DOCUMENT_BYTES;
+use crate::position::UnreadableText;
+use crate::root::{ReadError, Root};
+use crate::staging::{Staging, StagingError};
+use crate::take::take_content;
+use crate::target_lock::TargetLock;
+use crate::writer::Writer;
+use crate::{canonical, file_entry, json};
 use urdd_format::registry::ModuleKind;
 
 /// Why the hashes could not be updated.
@@ -51,7 +50,14 @@ pub fn rehash(root: &Root) -> Result<Vec<String>, RehashError> {
     let mut metadata = json::read(&bytes)?.value;
     let mut changed = Vec::new();
     for entry in file_entry::all(&mut metadata) {
-        update(root, entry, &mut changed)?;
+        let Some(path) = file_entry::path(entry).map(str::to_owned) else {
+            continue;
+        };
+        let (size, sha256) = file_entry::of(root, &path)
+            .map_err(|error| RehashError::File { path: path.clone(), error })?;
+        if file_entry::update(entry, size, &sha256) {
+            changed.push(path);
+        }
     }
     if !changed.is_empty() {
         replace(folder, canonical::json_string(&metadata).as_bytes())?;
@@ -74,18 +80,6 @@ fn replace(folder: &Path, text: &[u8]) -> io::Result<()> {
     })?;
     Writer::new(staging.content()).synced(file, text)?;
     staging.put_among(folder, &[file]).map_err(|(_, error)| error)
-}
-
-fn update(root: &Root, entry: &mut Value, changed: &mut Vec<String>) -> Result<(), RehashError> {
-    let Some(path) = file_entry::path(entry).map(str::to_owned) else {
-        return Ok(());
-    };
-    let (size, sha256) =
-        digest::of(root, &path).map_err(|error| RehashError::File { path: path.clone(), error })?;
-    if file_entry::update(entry, size, &sha256) {
-        changed.push(path);
-    }
-    Ok(())
 }
 
 /// Why a module could not be added. Nothing is changed then.
@@ -164,4 +158,55 @@ pub fn add_module(
         return Err(AddModuleError::Write { path: parent.join(ROOT_METADATA), error });
     }
     Ok(folder)
+}
+
+/// Files by path relative to the root of their URDD.
+pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// A pending replacement of files in a folder. It locks out other runs of this program from [`Replacement::begin`] on.
+#[derive(Debug)]
+pub struct Replacement {
+    folder: PathBuf,
+    staging: Staging,
+}
+
+impl Replacement {
+    /// Waits until no other run writes to the folder.
+    ///
+    /// # Errors
+    /// If the parent folder is not writable.
+    pub fn begin(folder: &Path) -> Result<Self, StagingError> {
+        Ok(Replacement {
+            folder: folder.to_owned(),
+            staging: Staging::begin_inside(folder, &Cancellation::default())?,
+        })
+    }
+
+    /// Prepares the new content: these files, plus all others unchanged.
+    ///
+    /// # Errors
+    /// If a file cannot be read or written.
+    pub fn stage(&self, files: &Files) -> Result<(), StagingError> {
+        let writer = Writer::new(self.staging.content());
+        let instead: BTreeSet<&Path> = files.keys().map(Path::new).collect();
+        take_content(&self.folder, self.staging.content(), &|path| instead.contains(path))?;
+        for (path, bytes) in files {
+            writer.file(path, bytes).map_err(|error| match error {
+                StagingError::Link { path } => {
+                    let below = path.strip_prefix(self.staging.content()).unwrap_or(&path);
+                    StagingError::Link { path: self.folder.join(below) }
+                }
+                error => error,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Moves the new content into place.
+    ///
+    /// # Errors
+    /// If it cannot be moved. The old content is unchanged then.
+    pub fn commit(self) -> Result<(), StagingError> {
+        self.staging.commit()
+    }
 }

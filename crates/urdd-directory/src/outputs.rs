@@ -1,9 +1,9 @@
 //! The one way in which a run writes files among those of a person: all of them or none, and never through a link, into
 //! a pipe, or over a file with other content that it was not told to replace.
 //!
-//! A folder that is new, or that holds nothing but these files, is replaced as a whole ([`super::staging`]). Elsewhere the
+//! A folder that is new, or that holds nothing but these files, is replaced as a whole ([`crate::staging`]). Elsewhere the
 //! files are prepared in a hidden folder and moved one by one. If a run is killed meanwhile, the next one finishes what it
-//! began (`staging_among.rs`).
+//! began.
 #![expect(clippy::disallowed_methods, reason = "this is where files are written")]
 
 use std::collections::BTreeSet;
@@ -13,11 +13,11 @@ use std::path::{Component, Path, PathBuf};
 
 use thiserror::Error;
 
-use super::discover::ROOT_METADATA;
-use super::regular;
-use super::staging::{Staging, StagingError};
-use super::writer::Writer;
 use crate::cancellation::Cancellation;
+use crate::file_type::ROOT_METADATA;
+use crate::regular;
+use crate::staging::{Staging, StagingError};
+use crate::writer::Writer;
 use urdd_format::escape;
 
 /// Why no file was written.

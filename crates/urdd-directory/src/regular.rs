@@ -5,7 +5,7 @@ use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
 
-use super::read_error::ReadError;
+use crate::source::ReadError;
 
 /// Opens a regular file.
 ///

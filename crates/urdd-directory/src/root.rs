@@ -3,11 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
-pub use super::listing::{Entry, EntryKind, Listing};
-use super::path;
-pub use super::read_error::ReadError;
-use super::regular;
-use super::source::{Archive, Disk, OpenFile, Source, is_archive};
+pub use crate::source::ReadError;
+use crate::source::{Archive, Disk, OpenFile, Source, is_archive};
+pub use crate::source::{Entry, EntryKind, Listing};
+use crate::{path, regular};
 
 /// The root of a URDD.
 #[derive(Debug, Clone)]

@@ -5,7 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::outputs::{self, Output, OutputError, Target};
+use crate::outputs::{self, Output, OutputError, Target};
 use urdd_format::schema::{self, RELEASED_PATH, SchemaError, Subject, Variant};
 
 /// Why the folder of schemas could not be written or read.

@@ -2,54 +2,28 @@
 //!
 //! While a run is at work, two entries are beside the target. The folder `.urdd-<hash of the target's name>` contains
 //! the new content. The run locks the file `.urdd-<hash>.lock` from before it reads the old content until the new
-//! content is in place (see [`super::target_lock`]). A crashed run leaves both behind, and the old content in place.
+//! content is in place (see [`crate::target_lock`]). A crashed run leaves both behind, and the old content in place.
 //! The next run into the same target gets the lock, so no other run is active, and removes them. A second run waits for
 //! the first.
+//!
+//! Where a folder has other files too, the new ones are moved into it one by one. The files that will be replaced are
+//! copied to `was`. Then the new files become `ready`, which decides: if the run is killed from then on, the next run into
+//! the same place moves what is left in `ready`, and leaves alone what somebody changed in between.
 #![expect(clippy::disallowed_methods, reason = "this is where files are written")]
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use thiserror::Error;
+use same_file::is_same_file;
 
-#[path = "staging_among.rs"]
-mod among;
-
-use super::target_lock::{LockError, TargetLock, beside};
 use crate::cancellation::Cancellation;
-
-/// Why a folder could not be written. Its old content is unchanged.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-#[expect(missing_docs, reason = "the messages say it")]
-pub enum StagingError {
-    #[error("{}: a folder cannot be written here: {reason}", path.display())]
-    Place { path: PathBuf, reason: String },
-    #[error("{}: cannot be written: {}", path.display(), in_words(error))]
-    Write { path: PathBuf, error: io::Error },
-    #[error("{}: cannot be read: {error}", path.display())]
-    Read { path: PathBuf, error: io::Error },
-    #[error("{}: this file does not belong to the URDD, and would be overwritten; move it away", path.display())]
-    InTheWay { path: PathBuf },
-    #[error("{}: this is a link, and nothing is written through it; replace it by the folder that it leads to", path.display())]
-    Link { path: PathBuf },
-    #[error("stopped before it was finished; nothing was changed")]
-    Cancelled,
-    #[error(
-        "{}: this folder is not empty, and is not a URDD that `urdd generate` wrote; give another folder, or --force to write there (files with other names stay)", path.display()
-    )]
-    Occupied { path: PathBuf },
-}
-
-fn in_words(error: &io::Error) -> String {
-    match error.kind() {
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
-            format!("the disk is full ({error}); nothing was changed")
-        }
-        _ => error.to_string(),
-    }
-}
+use crate::file_type::ROOT_METADATA;
+pub use crate::take::StagingError;
+use crate::take::{keep_modes, remove};
+use crate::target_lock::{TargetLock, beside};
+use crate::{file_entry, regular};
 
 /// A folder in preparation.
 #[derive(Debug)]
@@ -65,6 +39,11 @@ pub struct Staging {
     _lock: Option<TargetLock>,
 }
 
+/// What is in the working folder: the prepared files, those of them that are moved one by one, copies of the files that
+/// these replace, and the old folder.
+const CONTENT: &str = "new";
+const READY: &str = "ready";
+const WAS: &str = "was";
 const OLD: &str = "old";
 
 impl Staging {
@@ -84,7 +63,7 @@ impl Staging {
     }
 
     /// As [`Staging::begin`], but also for the current folder or one above it. Replacing that folder itself would leave
-    /// other processes in a deleted folder, so [`Staging::commit`] replaces its changed files one by one (`staging_among.rs`).
+    /// other processes in a deleted folder, so [`Staging::commit`] replaces its changed files one by one.
     ///
     /// # Errors
     /// As [`Staging::begin`].
@@ -94,10 +73,9 @@ impl Staging {
         Self::at(target, is_inside, cancellation)
     }
 
-    /// As [`Staging::begin`], for files beside `anchor`, whose folder exists and stays: see `staging_among.rs`.
+    /// As [`Staging::begin`], for files beside `anchor`, whose folder exists and stays.
     pub(super) fn begin_among(anchor: &Path) -> Result<Self, StagingError> {
-        let write = |error| StagingError::Write { path: anchor.to_owned(), error };
-        let folder = parent(anchor).canonicalize().map_err(write)?;
+        let folder = parent(anchor).canonicalize().map_err(StagingError::write(anchor))?;
         let anchor = folder.join(anchor.file_name().unwrap_or_default());
         Self::at(anchor, false, &Cancellation::default())
     }
@@ -109,12 +87,11 @@ impl Staging {
     ) -> Result<Self, StagingError> {
         let lock = match TargetLock::acquire(&target, cancellation) {
             Ok(lock) => Some(lock),
-            Err(LockError::Cancelled) => return Err(StagingError::Cancelled),
-            Err(LockError::Io(error)) if error.kind() == ErrorKind::Unsupported => None,
-            Err(LockError::Io(error)) => {
-                let path = target;
-                return Err(StagingError::Write { path, error });
+            Err(error) if error.kind() == ErrorKind::Interrupted => {
+                return Err(StagingError::Cancelled);
             }
+            Err(error) if error.kind() == ErrorKind::Unsupported => None,
+            Err(error) => return Err(StagingError::write(&target)(error)),
         };
         let workplace = match lock {
             Some(_) => beside(&target, ""),
@@ -125,19 +102,16 @@ impl Staging {
             rescue(&workplace, &target);
             remove(&workplace);
         }
-        let content = workplace.join(among::CONTENT);
-        let made = fs::create_dir(&workplace).and_then(|()| fs::create_dir(&content));
+        let content = workplace.join(CONTENT);
         let staging = Staging { target, workplace, content, is_inside, _lock: lock };
-        match made {
-            Ok(()) => Ok(staging),
-            Err(error) => {
-                let path = staging.target.clone();
-                Err(StagingError::Write { path, error })
-            }
-        }
+        fs::create_dir(&staging.workplace)
+            .and_then(|()| fs::create_dir(&staging.content))
+            .map_err(StagingError::write(&staging.target))?;
+        Ok(staging)
     }
 
-    /// Moves prepared files into `folder`, one by one: see `staging_among.rs`.
+    /// Moves prepared files into a folder that has other files too, one by one, in this order. A new folder moves as a
+    /// whole.
     ///
     /// # Errors
     /// The file that cannot be moved, and why. The folder is as before then.
@@ -146,7 +120,45 @@ impl Staging {
         folder: &Path,
         paths: &[&'p Path],
     ) -> Result<(), (&'p Path, io::Error)> {
-        among::put(&self.workplace, folder, paths)
+        let content = &self.content;
+        let [ready, was] = [READY, WAS].map(|name| self.workplace.join(name));
+        for path in paths {
+            keep(folder, content, &was, path).map_err(|error| (*path, error))?;
+        }
+        let mut known = BTreeSet::new();
+        let parts = paths.iter().map(|path| new_part(folder, path));
+        let parts: Vec<&Path> = parts.filter(|part| known.insert(*part)).collect();
+        if let [part, _, ..] = parts.as_slice() {
+            fs::rename(content, &ready).map_err(|error| (*part, error))?;
+        }
+        let from = if parts.len() > 1 { &ready } else { content };
+        let place = |part: &&'p Path| (*part, from.join(part), folder.join(part));
+        let moves: Vec<_> = parts.iter().map(place).collect();
+        // A kill between two of these is what the next run has to complete: nothing else is done here.
+        for (number, (part, from, to)) in moves.iter().enumerate() {
+            if let Err(error) = fs::rename(from, to) {
+                for (part, _, place) in &moves[..number] {
+                    let _ = fs::rename(was.join(part), place)
+                        .or_else(|_| fs::remove_file(place))
+                        .or_else(|_| fs::remove_dir_all(place));
+                }
+                let _ = fs::rename(&ready, content);
+                return Err((part, error));
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves the files that differ from those of the target, `urdd.json` last: until then, the hashes show that the folder
+    /// is incomplete.
+    fn put_changed(&self) -> io::Result<()> {
+        let (content, target) = (&self.content, &self.target);
+        let mut paths = Vec::new();
+        files(content, Path::new(""), &mut paths)?;
+        paths.retain(|path| !is_same_file(content.join(path), target.join(path)).unwrap_or(false));
+        paths.sort_by_key(|path| path.as_os_str() == ROOT_METADATA);
+        let paths: Vec<&Path> = paths.iter().map(PathBuf::as_path).collect();
+        self.put_among(target, &paths).map_err(|(_, error)| error)
     }
 
     /// The folder for the new content.
@@ -167,10 +179,10 @@ impl Staging {
     pub fn commit(self) -> Result<(), StagingError> {
         keep_modes(&self.target, &self.content)
             .and_then(|()| match self.is_inside {
-                true => among::put_changed(&self.workplace, &self.target),
+                true => self.put_changed(),
                 false => put(&self.content, &self.target, &self.workplace.join(OLD)),
             })
-            .map_err(|error| StagingError::Write { path: self.target.clone(), error })
+            .map_err(StagingError::write(&self.target))
     }
 }
 
@@ -188,12 +200,12 @@ fn place(target: &Path) -> Result<PathBuf, StagingError> {
     let refuse = |reason: &str| {
         Err(StagingError::Place { path: target.to_owned(), reason: reason.to_owned() })
     };
-    let write = |error| StagingError::Write { path: target.to_owned(), error };
+    let write = StagingError::write(target);
     if let Ok(metadata) = fs::metadata(target) {
         if !metadata.is_dir() {
             return refuse("a file of that name exists");
         }
-        let canonical = target.canonicalize().map_err(write)?;
+        let canonical = target.canonicalize().map_err(&write)?;
         if canonical.parent().is_none() {
             return refuse("it is the root of the file system");
         }
@@ -203,7 +215,7 @@ fn place(target: &Path) -> Result<PathBuf, StagingError> {
         return refuse("the path does not end with a name");
     };
     let parent = parent(target);
-    fs::create_dir_all(&parent).map_err(write)?;
+    fs::create_dir_all(&parent).map_err(&write)?;
     Ok(parent.canonicalize().map_err(write)?.join(name))
 }
 
@@ -226,59 +238,11 @@ fn rescue(workplace: &Path, target: &Path) -> bool {
     if !is_folder(workplace) || old.is_symlink() {
         return true;
     }
-    among::complete(workplace, &parent(target));
+    complete(workplace, &parent(target));
     let is_gone = fs::symlink_metadata(target).is_err();
     match is_gone && old.is_dir() {
         true => fs::rename(&old, target).is_ok(),
         false => true,
-    }
-}
-
-/// Removes a folder, including read-only folders in it.
-fn remove(folder: &Path) {
-    if fs::remove_dir_all(folder).is_err() {
-        make_writable(folder);
-        let _ = fs::remove_dir_all(folder);
-    }
-}
-
-fn make_writable(folder: &Path) {
-    let Ok(metadata) = fs::symlink_metadata(folder) else {
-        return;
-    };
-    if !metadata.is_dir() {
-        return;
-    }
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        let mode = metadata.permissions().mode() | 0o700;
-        let _ = fs::set_permissions(folder, fs::Permissions::from_mode(mode));
-    }
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        make_writable(&entry.path());
-    }
-}
-
-/// Gives each new folder and file the permissions of the one it replaces.
-fn keep_modes(old: &Path, new: &Path) -> io::Result<()> {
-    let Ok(before) = fs::symlink_metadata(old) else {
-        return Ok(());
-    };
-    let after = fs::symlink_metadata(new)?;
-    if before.file_type() != after.file_type() || after.is_symlink() {
-        return Ok(());
-    }
-    if after.is_dir() {
-        for entry in fs::read_dir(new)? {
-            let name = entry?.file_name();
-            keep_modes(&old.join(&name), &new.join(&name))?;
-        }
-    }
-    // The folder last: it may become read-only.
-    match before.permissions() == after.permissions() {
-        true => Ok(()),
-        false => fs::set_permissions(new, before.permissions()),
     }
 }
 
@@ -316,4 +280,66 @@ fn exchange(one: &Path, other: &Path) -> io::Result<bool> {
 #[cfg(not(any(target_os = "linux", target_os = "macos")))]
 fn exchange(_: &Path, _: &Path) -> io::Result<bool> {
     Ok(false)
+}
+
+/// Copies the file that will be replaced, and gives the new one its permissions.
+fn keep(folder: &Path, new: &Path, was: &Path, path: &Path) -> io::Result<()> {
+    let (place, copy) = (folder.join(path), was.join(path));
+    let Ok(there) = fs::metadata(&place) else {
+        return Ok(());
+    };
+    copy.parent().map_or(Ok(()), fs::create_dir_all)?;
+    fs::copy(&place, &copy)?;
+    fs::set_permissions(new.join(path), there.permissions())
+}
+
+/// The outermost folder on the way to a file that is new, or the file.
+fn new_part<'p>(folder: &Path, path: &'p Path) -> &'p Path {
+    let is_new = |part: &&Path| fs::symlink_metadata(folder.join(part)).is_err();
+    let parts: Vec<&Path> = path.ancestors().collect();
+    parts.into_iter().rev().find(is_new).unwrap_or(path)
+}
+
+/// Moves what a killed run did not, where everything is as that run found it.
+fn complete(workplace: &Path, folder: &Path) {
+    let (ready, was) = (workplace.join(READY), workplace.join(WAS));
+    let hash = |path: &Path| file_entry::of_reader(regular::open(path).ok()?).ok();
+    let mut left = Vec::new();
+    if files(&ready, Path::new(""), &mut left).is_err() {
+        return;
+    }
+    for path in left {
+        let (place, before) = (folder.join(&path), was.join(&path));
+        let is_there = |path: &Path| fs::symlink_metadata(path).is_ok();
+        let is_as_before = match is_there(&place) {
+            true => hash(&before).is_some() && hash(&before) == hash(&place),
+            false => !is_there(&before),
+        };
+        let is_linked = path.ancestors().any(|part| folder.join(part).is_symlink());
+        if is_as_before
+            && !is_linked
+            && let Some(above) = place.parent()
+        {
+            let _ = fs::create_dir_all(above).and_then(|()| fs::rename(ready.join(&path), &place));
+        }
+    }
+}
+
+/// The files in a folder, none of them behind a link.
+fn files(folder: &Path, below: &Path, found: &mut Vec<PathBuf>) -> io::Result<()> {
+    // `join` of nothing would end it with a slash, behind which a link is followed.
+    let here = folder.components().chain(below.components()).collect::<PathBuf>();
+    if !fs::symlink_metadata(&here)?.is_dir() {
+        return Err(io::ErrorKind::NotADirectory.into());
+    }
+    for entry in fs::read_dir(here)? {
+        let entry = entry?;
+        let (path, kind) = (below.join(entry.file_name()), entry.file_type()?);
+        if kind.is_dir() {
+            files(folder, &path, found)?;
+        } else if kind.is_file() {
+            found.push(path);
+        }
+    }
+    Ok(())
 }

@@ -1,21 +1,66 @@
-//! Copies files and folders unchanged: hard links where the file system supports them, else copies. A symbolic link
-//! stays a symbolic link.
+//! Files and folders on the disk as wholes: copied unchanged, removed, given the permissions of others. A copy is a hard
+//! link where the file system supports it, and a symbolic link stays one.
 #![expect(clippy::disallowed_methods, reason = "this is where files are written")]
 
 use std::fs;
-use std::path::Path;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
 
-use super::staging::StagingError;
+use thiserror::Error;
+
+/// Why a folder could not be written. Its old content is unchanged.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say it")]
+pub enum StagingError {
+    #[error("{}: a folder cannot be written here: {reason}", path.display())]
+    Place { path: PathBuf, reason: String },
+    #[error("{}: cannot be written: {}", path.display(), in_words(error))]
+    Write { path: PathBuf, error: io::Error },
+    #[error("{}: cannot be read: {error}", path.display())]
+    Read { path: PathBuf, error: io::Error },
+    #[error("{}: this file does not belong to the URDD, and would be overwritten; move it away", path.display())]
+    InTheWay { path: PathBuf },
+    #[error("{}: this is a link, and nothing is written through it; replace it by the folder that it leads to", path.display())]
+    Link { path: PathBuf },
+    #[error("stopped before it was finished; nothing was changed")]
+    Cancelled,
+    #[error(
+        "{}: this folder is not empty, and is not a URDD that `urdd generate` wrote; give another folder, or --force to write there (files with other names stay)", path.display()
+    )]
+    Occupied { path: PathBuf },
+}
+
+impl StagingError {
+    /// Of a path that cannot be read.
+    pub(crate) fn read(path: &Path) -> impl Fn(io::Error) -> Self {
+        |error| StagingError::Read { path: path.to_owned(), error }
+    }
+
+    /// Of a path that cannot be written.
+    pub(crate) fn write(path: &Path) -> impl Fn(io::Error) -> Self {
+        |error| StagingError::Write { path: path.to_owned(), error }
+    }
+}
+
+fn in_words(error: &io::Error) -> String {
+    match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            format!("the disk is full ({error}); nothing was changed")
+        }
+        _ => error.to_string(),
+    }
+}
 
 /// Copies a file, a symbolic link or a folder. `to` must not exist.
 ///
 /// # Errors
 /// If something cannot be read or written.
 pub fn take(from: &Path, to: &Path) -> Result<(), StagingError> {
-    let kind = fs::symlink_metadata(from).map_err(|error| unread(from, error))?;
+    let kind = fs::symlink_metadata(from).map_err(StagingError::read(from))?;
     match kind.is_dir() {
         true => {
-            fs::create_dir(to).map_err(|error| unwritten(to, error))?;
+            fs::create_dir(to).map_err(StagingError::write(to))?;
             take_content(from, to, &|_| false)
         }
         false => file(from, to),
@@ -41,13 +86,13 @@ fn content(
     without: &dyn Fn(&Path) -> bool,
 ) -> Result<(), StagingError> {
     let folder = from.join(below);
-    for entry in fs::read_dir(&folder).map_err(|error| unread(&folder, error))? {
-        let entry = entry.map_err(|error| unread(&folder, error))?;
+    for entry in fs::read_dir(&folder).map_err(StagingError::read(&folder))? {
+        let entry = entry.map_err(StagingError::read(&folder))?;
         let below = below.join(entry.file_name());
         let (source, target) = (from.join(&below), to.join(&below));
-        let kind = entry.file_type().map_err(|error| unread(&source, error))?;
+        let kind = entry.file_type().map_err(StagingError::read(&source))?;
         if kind.is_dir() {
-            fs::create_dir(&target).map_err(|error| unwritten(&target, error))?;
+            fs::create_dir(&target).map_err(StagingError::write(&target))?;
             content(from, to, &below, without)?;
         } else if !without(&below) {
             file(&source, &target)?;
@@ -60,21 +105,59 @@ fn content(
 pub(crate) fn file(from: &Path, to: &Path) -> Result<(), StagingError> {
     #[cfg(unix)]
     if fs::symlink_metadata(from).is_ok_and(|metadata| metadata.is_symlink()) {
-        let target = fs::read_link(from).map_err(|error| unread(from, error))?;
-        return std::os::unix::fs::symlink(target, to).map_err(|error| unwritten(to, error));
+        let target = fs::read_link(from).map_err(StagingError::read(from))?;
+        return std::os::unix::fs::symlink(target, to).map_err(StagingError::write(to));
     }
     if fs::hard_link(from, to).is_err() {
-        fs::copy(from, to).map_err(|error| unwritten(to, error))?;
+        fs::copy(from, to).map_err(StagingError::write(to))?;
     }
     Ok(())
 }
 
-fn unread(path: &Path, error: std::io::Error) -> StagingError {
-    let path = path.to_owned();
-    StagingError::Read { path, error }
+/// Removes a folder, including read-only folders in it.
+pub(crate) fn remove(folder: &Path) {
+    if fs::remove_dir_all(folder).is_err() {
+        make_writable(folder);
+        let _ = fs::remove_dir_all(folder);
+    }
 }
 
-fn unwritten(path: &Path, error: std::io::Error) -> StagingError {
-    let path = path.to_owned();
-    StagingError::Write { path, error }
+fn make_writable(folder: &Path) {
+    let Ok(metadata) = fs::symlink_metadata(folder) else {
+        return;
+    };
+    if !metadata.is_dir() {
+        return;
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mode = metadata.permissions().mode() | 0o700;
+        let _ = fs::set_permissions(folder, fs::Permissions::from_mode(mode));
+    }
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        make_writable(&entry.path());
+    }
+}
+
+/// Gives each new folder and file the permissions of the one it replaces.
+pub(crate) fn keep_modes(old: &Path, new: &Path) -> io::Result<()> {
+    let Ok(before) = fs::symlink_metadata(old) else {
+        return Ok(());
+    };
+    let after = fs::symlink_metadata(new)?;
+    if before.file_type() != after.file_type() || after.is_symlink() {
+        return Ok(());
+    }
+    if after.is_dir() {
+        for entry in fs::read_dir(new)? {
+            let name = entry?.file_name();
+            keep_modes(&old.join(&name), &new.join(&name))?;
+        }
+    }
+    // The folder last: it may become read-only.
+    match before.permissions() == after.permissions() {
+        true => Ok(()),
+        false => fs::set_permissions(new, before.permissions()),
+    }
 }

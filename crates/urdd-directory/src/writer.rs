@@ -1,20 +1,149 @@
-//! Writes files, and returns their entries for `urdd.json`.
+//! Writes files, and returns their entries for `urdd.json`. A document is in memory as a whole, or serialised row by row to
+//! save memory.
 #![expect(clippy::disallowed_methods, reason = "this is where files are written")]
 
+use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use serde::Serialize;
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use super::document::Document;
-use super::source::Memory;
-use super::staging::StagingError;
-use super::take;
+use crate::source::Memory;
+use crate::staging::StagingError;
+use crate::{canonical, take};
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::index::Count;
 use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::{self, FileEntry};
+
+/// A document that can be written.
+pub enum Document {
+    /// Any document.
+    Whole(Value),
+    /// An object that contains long lists. Its member names need no quotes in YAML.
+    Object(Vec<(&'static str, Member)>),
+}
+
+/// A member of a [`Document::Object`].
+pub enum Member {
+    /// Any value.
+    Value(Value),
+    /// A long list.
+    Rows(Rows),
+    /// An object that contains long lists, with at least one member.
+    Object(Vec<(&'static str, Member)>),
+}
+
+/// A list of lists and objects, each serialised when it is written.
+pub struct Rows {
+    length: usize,
+    row: Box<dyn Fn(usize) -> Result<Value, serde_json::Error> + Send>,
+}
+
+impl Rows {
+    /// Rows of values that serialise to lists or objects.
+    pub fn new<T: Serialize + Send + 'static>(rows: Vec<T>) -> Self {
+        Rows { length: rows.len(), row: Box::new(move |idx| serde_json::to_value(&rows[idx])) }
+    }
+
+    /// Rows that serialise to lists or objects and are part of a shared value.
+    pub fn of<M: Send + Sync + 'static, T: Serialize>(
+        whole: &Arc<M>,
+        rows: impl Fn(&M) -> &[T] + Send + 'static,
+    ) -> Self {
+        let whole = Arc::clone(whole);
+        Rows {
+            length: rows(&whole).len(),
+            row: Box::new(move |idx| serde_json::to_value(&rows(&whole)[idx])),
+        }
+    }
+
+    fn row(&self, idx: usize) -> Result<Value, fmt::Error> {
+        (self.row)(idx).map_err(|_| fmt::Error)
+    }
+}
+
+impl Member {
+    /// A long list, or null for `None`.
+    pub fn rows_or_null(rows: Option<Rows>) -> Self {
+        rows.map_or(Member::Value(Value::Null), Member::Rows)
+    }
+}
+
+impl Document {
+    /// Writes its canonical JSON.
+    ///
+    /// # Errors
+    /// Those of `out`, or if a row cannot be serialised.
+    pub fn json(&self, out: &mut impl fmt::Write) -> fmt::Result {
+        match self {
+            Document::Whole(value) => return canonical::json(value, out),
+            Document::Object(members) => json_object(members, 0, out)?,
+        }
+        out.write_char('\n')
+    }
+
+    /// Writes its canonical YAML.
+    ///
+    /// # Errors
+    /// Those of `out`, or if a row cannot be serialised.
+    pub fn yaml(&self, out: &mut impl fmt::Write) -> fmt::Result {
+        match self {
+            Document::Whole(value) => canonical::yaml(value, out),
+            Document::Object(members) => yaml_members(members, 0, out),
+        }
+    }
+}
+
+fn json_object<W: fmt::Write>(
+    members: &[(&str, Member)],
+    indent: usize,
+    out: &mut W,
+) -> fmt::Result {
+    let inner = indent + 2;
+    canonical::json_block(['{', '}'], members, indent, out, |(name, member), out| {
+        write!(out, "\"{name}\": ")?;
+        match member {
+            Member::Value(value) => canonical::json_node(value, inner, out),
+            Member::Object(members) => json_object(members, inner, out),
+            Member::Rows(rows) if rows.length == 0 => out.write_str("[]"),
+            Member::Rows(rows) => {
+                canonical::json_block(['[', ']'], 0..rows.length, inner, out, |idx, out| {
+                    canonical::json_node(&rows.row(idx)?, inner + 2, out)
+                })
+            }
+        }
+    })
+}
+
+fn yaml_members(
+    members: &[(&str, Member)],
+    indent: usize,
+    out: &mut impl fmt::Write,
+) -> fmt::Result {
+    for (name, member) in members {
+        write!(out, "{:indent$}{name}:", "")?;
+        match member {
+            Member::Value(value) => canonical::yaml_rest(value, indent + 2, out)?,
+            Member::Object(members) => {
+                out.write_char('\n')?;
+                yaml_members(members, indent + 2, out)?;
+            }
+            Member::Rows(rows) if rows.length == 0 => out.write_str(" []\n")?,
+            Member::Rows(rows) => {
+                out.write_char('\n')?;
+                for idx in 0..rows.length {
+                    canonical::yaml_element(&rows.row(idx)?, indent + 2, out)?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
 
 /// Writes the files of a URDD into a folder, or into memory.
 #[derive(Debug, Clone)]
@@ -48,8 +177,8 @@ impl Writer {
     /// # Errors
     /// If it cannot be read, or its copy cannot be written.
     pub fn copy(&self, from: &Path, path: &str) -> Result<FileEntry, StagingError> {
-        let unread = |error| StagingError::Read { path: from.to_owned(), error };
-        let mut source = File::open(from).map_err(unread)?;
+        let unread = StagingError::read(from);
+        let mut source = File::open(from).map_err(&unread)?;
         let (mut hasher, mut size) = (Sha256::new(), 0);
         let mut piece = vec![0; 1 << 16];
         let mut failure = None;
@@ -106,7 +235,7 @@ impl Writer {
         &self,
         path: &str,
         document: &Document,
-        emit: fn(&Document, &mut Sink) -> std::fmt::Result,
+        emit: fn(&Document, &mut Sink) -> fmt::Result,
     ) -> Result<FileEntry, StagingError> {
         let (mut hasher, mut size) = (Sha256::new(), 0);
         self.written(path, |out| {
@@ -159,8 +288,7 @@ impl Writer {
             if let Some(link) = below.into_iter().find(|folder| folder.is_symlink()) {
                 return Err(StagingError::Link { path: link.to_owned() });
             }
-            fs::create_dir_all(folder)
-                .map_err(|error| StagingError::Write { path: folder.to_owned(), error })?;
+            fs::create_dir_all(folder).map_err(StagingError::write(folder))?;
         }
         Ok(place)
     }
@@ -179,7 +307,7 @@ struct Sink<'a> {
 }
 
 impl Sink<'_> {
-    fn flush(&mut self) -> std::fmt::Result {
+    fn flush(&mut self) -> fmt::Result {
         let bytes = self.waiting.as_bytes();
         self.hasher.update(bytes);
         *self.size += bytes.len() as u64;
@@ -187,13 +315,13 @@ impl Sink<'_> {
         self.waiting.clear();
         written.map_err(|error| {
             self.error = Some(error);
-            std::fmt::Error
+            fmt::Error
         })
     }
 }
 
-impl std::fmt::Write for Sink<'_> {
-    fn write_str(&mut self, text: &str) -> std::fmt::Result {
+impl fmt::Write for Sink<'_> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
         self.waiting.push_str(text);
         if self.waiting.len() < WRITTEN_AT_ONCE { Ok(()) } else { self.flush() }
     }

@@ -5,15 +5,8 @@
 //!
 //! This crate only describes; `validate` judges.
 
-pub mod carried_urdf;
 pub mod consumer;
-pub mod dof_layout;
-pub mod entries;
-pub mod kept;
-pub mod legacy;
 pub mod load;
-pub mod mechanism;
-pub mod mesh_files;
 pub mod meshes;
 pub mod module;
 pub mod paths;
@@ -25,3 +18,12 @@ pub mod shapes;
 pub mod tree;
 pub mod urdd;
 pub mod usable_geometry;
+
+// Parts of these, by names of their own.
+pub use load as kept;
+pub use module as carried_urdf;
+pub use paths as mesh_files;
+pub use robot as dof_layout;
+pub use schema_check as legacy;
+pub use tree as mechanism;
+pub use urdd as entries;

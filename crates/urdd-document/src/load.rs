@@ -1,15 +1,17 @@
-//! Reads a URDD into memory once for all rules.
+//! Reads a URDD into memory: all of it once for all rules, or modules when they are first asked for, which are kept.
 
-use std::collections::{HashMap, HashSet};
-use std::sync::Arc;
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::fmt;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use rayon::prelude::*;
 use serde::Deserialize;
 
-use super::carried_urdf::{self, CarriedUrdf, NoUrdf};
-use super::legacy;
-use super::module::{JsonFile, MetadataFile, Mirror, Module, VersionFile, is_extension};
-use super::schema_check::{self, SchemaViolation};
+use crate::module::{
+    CarriedUrdf, JsonFile, MetadataFile, Mirror, Module, NoUrdf, VersionFile, is_extension,
+    read_urdf,
+};
+use crate::schema_check::{self, SchemaViolation};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::{MAX_DOCUMENT_BYTES, MAX_VERSION_BYTES};
 use urdd_directory::root::{EntryKind, Listing, ReadError, Root};
@@ -43,12 +45,12 @@ impl Loaded {
         let listing = root.list()?;
         let metadata = read_metadata(&root);
         let modules = read_modules(&root, &metadata, module_folders(&listing), Some(&listing));
-        let urdf = carried_urdf::read(&root, &listing, &metadata);
+        let urdf = read_urdf(&root, &listing, &metadata);
         Ok(Self { urdf, ..Self::of(root, listing.into(), metadata.into(), modules) })
     }
 
     /// These modules, without URDF.
-    pub(super) fn of(
+    fn of(
         root: Root,
         listing: Arc<Listing>,
         metadata: Arc<MetadataFile>,
@@ -60,7 +62,7 @@ impl Loaded {
 }
 
 /// Reads modules, and their mirrors if a listing is given.
-pub(super) fn read_modules(
+fn read_modules(
     root: &Root,
     metadata: &MetadataFile,
     folders: Vec<(String, Option<ModuleKind>)>,
@@ -91,8 +93,8 @@ fn profile(metadata: &MetadataFile, modules: &[Arc<Module>]) -> Profile {
     }
 }
 
-pub(super) fn read_metadata(root: &Root) -> MetadataFile {
-    let json = JsonFile::read(root, ROOT_METADATA);
+fn read_metadata(root: &Root) -> MetadataFile {
+    let json = JsonFile::of(root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES));
     let mut file = MetadataFile { json, violations: Vec::new(), metadata: None };
     if let JsonFile::Read(document) = &file.json {
         (file.metadata, file.violations) = metadata_of(&document.value);
@@ -121,10 +123,7 @@ fn newer_minor(metadata: &serde_json::Value) -> bool {
     }
 }
 
-pub(super) fn known_folders(
-    kinds: &[ModuleKind],
-    listing: &Listing,
-) -> Vec<(String, Option<ModuleKind>)> {
+fn known_folders(kinds: &[ModuleKind], listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
     let kinds = kinds.iter().filter(|kind| listing.has_folder(kind.folder()));
     kinds.map(|kind| (kind.folder().to_owned(), Some(*kind))).collect()
 }
@@ -204,16 +203,16 @@ fn read_module(
         is_draft: false,
     };
     if module.document.is_some() {
-        module.mirror = match yaml {
-            Some(_) => Mirror::Compared(TextFaults::default()),
-            None => Mirror::NotCompared,
-        };
+        if yaml.is_some() {
+            module.mirror = Mirror::Compared(TextFaults::default());
+        }
         return module;
     }
     if let (Some(spec), Some(document)) = (module.spec, module.json.document()) {
         let (read, violations) = schema_check::read(spec, &document.value, newer);
         module.document = read;
-        module.is_draft = module.document.is_none() && legacy::is_draft(spec, &document.value);
+        module.is_draft =
+            module.document.is_none() && schema_check::is_draft(spec, &document.value);
         if !module.is_draft {
             module.violations = violations;
         }
@@ -244,7 +243,7 @@ fn take(
 }
 
 fn read_yaml(root: &Root, listing: &Listing, file: &str) -> Result<Vec<u8>, ReadError> {
-    if !listing.has_file(file) && listing.get(file).is_none() {
+    if listing.get(file).is_none() {
         return Err(ReadError::Missing);
     }
     root.read(file, MAX_DOCUMENT_BYTES)
@@ -293,9 +292,86 @@ pub fn find_spec(kind: ModuleKind, version: Option<&str>) -> (Option<&'static Mo
         .filter(|spec| spec.kind == kind && version.major >= 1)
         .filter_map(|spec| semver::Version::parse(spec.version).ok().map(|v| (v, spec)))
         .filter(|(known, _)| known.major == version.major && *known < version)
-        .max_by(|a, b| a.0.cmp(&b.0));
-    match newest {
-        Some((_, spec)) => (Some(spec), true),
-        None => (None, false),
+        .max_by(|a, b| a.0.cmp(&b.0))
+        .map(|(_, spec)| spec);
+    (newest, newest.is_some())
+}
+
+/// A URDD as it is when this is made: each module is read when it is first asked for, and kept. One that changed
+/// before is [`ReadError::Changed`].
+pub struct Kept {
+    root: Root,
+    listing: OnceLock<Arc<Listing>>,
+    metadata: OnceLock<Arc<MetadataFile>>,
+    modules: Mutex<BTreeMap<ModuleKind, Arc<Module>>>,
+}
+
+impl fmt::Debug for Kept {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Kept").field(&self.root).finish()
+    }
+}
+
+impl Kept {
+    /// The URDD at a root, as it is now.
+    pub fn new(root: &Root) -> Self {
+        let (listing, metadata) = (OnceLock::new(), OnceLock::new());
+        Kept { root: root.kept(), listing, metadata, modules: Mutex::default() }
+    }
+
+    /// Its root, as it was.
+    pub fn root(&self) -> &Root {
+        &self.root
+    }
+
+    /// These modules, as far as they are there, without mirrors and URDF.
+    ///
+    /// # Errors
+    /// If the root could not be listed, or [`ReadError::Changed`].
+    pub fn part(&self, kinds: &[ModuleKind]) -> Result<Loaded, ReadError> {
+        let listing = keep(&self.listing, || self.root.list().map(Arc::new))?;
+        let metadata = match self.metadata.get() {
+            Some(metadata) => Arc::clone(metadata),
+            None => {
+                let read = Arc::new(read_metadata(&self.root));
+                match read.json.unreadable() {
+                    Some(ReadError::Changed) => return Err(ReadError::Changed),
+                    Some(_) => read,
+                    None => Arc::clone(self.metadata.get_or_init(|| read)),
+                }
+            }
+        };
+        let known = || self.modules.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = kinds.iter().filter_map(|kind| known().get(kind).cloned());
+        let mut modules: Vec<Arc<Module>> = kept.collect();
+        let is_new = |kind: &ModuleKind| modules.iter().all(|module| module.kind != Some(*kind));
+        let new: Vec<ModuleKind> = kinds.iter().copied().filter(is_new).collect();
+        let folders = known_folders(&new, listing);
+        if !folders.is_empty() {
+            for module in read_modules(&self.root, &metadata, folders, None) {
+                match (module.unreadable(), module.kind) {
+                    (Some(ReadError::Changed), _) => return Err(ReadError::Changed),
+                    (None, Some(kind)) => drop(known().insert(kind, Arc::clone(&module))),
+                    _ => {}
+                }
+                modules.push(module);
+            }
+        }
+        Ok(Loaded::of(self.root.clone(), Arc::clone(listing), metadata, modules))
+    }
+}
+
+/// What is there already, or what `read` gives, which stays. An error does not stay. No lock is held during the read,
+/// which may run on other threads.
+///
+/// # Errors
+/// Those of `read`.
+pub fn keep<T, E>(kept: &OnceLock<T>, read: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
+    match kept.get() {
+        Some(known) => Ok(known),
+        None => {
+            let read = read()?;
+            Ok(kept.get_or_init(|| read))
+        }
     }
 }

@@ -1,7 +1,13 @@
-//! Checks a document against its schema.
+//! Reads the document of a module: checks it against its schema, and raises a legacy one to version 1, so that programs see
+//! one format. Recognises documents of the format drafts that program versions 0.1.0 and 0.2.0 wrote under the same module
+//! versions (SPEC 4.4).
 //!
 //! serde accepts exactly what the schema accepts (a property test verifies this), so serde reads valid documents,
 //! quickly. Only invalid ones go to the schema validator, which reports every violation with its position.
+//!
+//! What a legacy module does not state becomes null or an empty list; [`crate::consumer`] fills in the joints of
+//! `chain_module` from the robot. All other values keep their JSON Pointers. Mesh modules and matrices over shapes are
+//! not raised: their keys differ.
 
 use std::error::Error;
 
@@ -9,11 +15,12 @@ use jsonschema::error::{TypeKind, ValidationErrorKind};
 use jsonschema::paths::Location;
 use jsonschema::{JsonType, ValidationError};
 use schemars::Schema;
-use serde_json::Value;
+use serde_json::{Value, json};
 
-use crate::legacy;
 use urdd_directory::json_scan;
-use urdd_format::registry::{ModuleDocument, ModuleSpec};
+use urdd_format::link_shapes_skips::SkippedReason;
+use urdd_format::registry::{ModuleDocument, ModuleKind, ModuleSpec, Profile, modules};
+use urdd_format::self_collision_model::ModelEvaluation;
 use urdd_format::short::cut;
 
 /// Maximum length of a value in a message, in characters.
@@ -52,7 +59,7 @@ pub fn read(
     document: &Value,
     newer: bool,
 ) -> (Option<ModuleDocument>, Vec<SchemaViolation>) {
-    let error = match legacy::read(spec, document) {
+    let error = match read_raised(spec, document) {
         Ok(document) => return (Some(document), Vec::new()),
         Err(error) => error,
     };
@@ -120,7 +127,10 @@ fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
         return;
     }
     let actual = || Some(excerpt(instance));
-    let elements = || instance.as_array().map(|list| format!("{} elements", list.len()));
+    let length = |expected| {
+        let elements = instance.as_array().map(|list| format!("{} elements", list.len()));
+        ("the list has the wrong length".to_owned(), Some(expected), elements)
+    };
     let mut unknown_keys = Vec::new();
     let (message, expected, actual) = match error.kind() {
         Kind::Required { property } => {
@@ -154,14 +164,8 @@ fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
             Some(format!("one of {}", excerpt(options))),
             actual(),
         ),
-        Kind::MinItems { limit } => {
-            let expected = format!("at least {limit} elements");
-            ("the list has the wrong length".to_owned(), Some(expected), elements())
-        }
-        Kind::MaxItems { limit } => {
-            let expected = format!("at most {limit} elements");
-            ("the list has the wrong length".to_owned(), Some(expected), elements())
-        }
+        Kind::MinItems { limit } => length(format!("at least {limit} elements")),
+        Kind::MaxItems { limit } => length(format!("at most {limit} elements")),
         Kind::Minimum { limit } => {
             ("the number is too small".to_owned(), Some(format!("at least {limit}")), actual())
         }
@@ -212,4 +216,126 @@ fn nearest_alternative<'a>(
 /// A value as text, shortened to fit a line.
 pub fn excerpt(value: &Value) -> String {
     cut(&value.to_string(), LONGEST).into_owned()
+}
+
+/// Reads a document of a module, and raises it.
+fn read_raised(spec: &ModuleSpec, document: &Value) -> Result<ModuleDocument, serde_json::Error> {
+    let read = spec.read(document)?;
+    let of_v1 = |v1: &&ModuleSpec| v1.kind == spec.kind && v1.profile == Profile::V1;
+    match modules().iter().find(of_v1).filter(|_| spec.profile == Profile::Legacy) {
+        Some(v1) => raise(spec.kind, document).map_or(Ok(read), |raised| v1.read(&raised)),
+        None => Ok(read),
+    }
+}
+
+/// A legacy document as a document of version 1. `None` for modules that are not raised.
+fn raise(kind: ModuleKind, document: &Value) -> Option<Value> {
+    let complete: fn(&mut Value) = match kind {
+        ModuleKind::Urdf => urdf,
+        ModuleKind::Dof => |module| {
+            add(module, json!({ "joint_idx_to_mimic_mapping": [], "dofs": [] }));
+        },
+        ModuleKind::Chain => |module| {
+            let origin = json!({ "position": [0, 0, 0], "quaternion_wxyz": [1, 0, 0, 0] });
+            for joint in list(module, "joints_in_chain") {
+                add(joint, json!({ "joint_type": "Fixed", "origin": origin, "axis": null }));
+            }
+        },
+        ModuleKind::Connections => |module| {
+            let without = json!({ "root_paths": [], "lowest_common_ancestors": [], "link_to_link_paths": null });
+            add(module, without);
+        },
+        ModuleKind::Bounds => |module| {
+            let without =
+                json!({ "dof_limited": [], "dof_velocity_limits": [], "dof_effort_limits": [] });
+            add(module, without);
+        },
+        ModuleKind::LinkShapesApproximations => |module| {
+            list(module, "full_bounding_spheres").for_each(sphere);
+            let links = list(module, "decomposition_bounding_spheres");
+            links.filter_map(Value::as_array_mut).flatten().for_each(sphere);
+        },
+        ModuleKind::LinkShapesMaxDistanceFromOrigin => |_| {},
+        _ => return None,
+    };
+    let mut raised = document.clone();
+    complete(&mut raised);
+    Some(raised)
+}
+
+/// Adds members to an object, or replaces them.
+fn add(object: &mut Value, members: Value) {
+    if let (Value::Object(object), Value::Object(members)) = (object, members) {
+        object.extend(members);
+    }
+}
+
+/// The elements of a list.
+fn list<'a>(object: &'a mut Value, key: &str) -> impl Iterator<Item = &'a mut Value> {
+    object.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten()
+}
+
+/// Removes the rotation of a sphere, which has no meaning.
+fn sphere(sphere: &mut Value) {
+    if let Some(sphere) = sphere.as_object_mut() {
+        sphere.shift_remove("offset_rpy");
+    }
+}
+
+/// Legacy modules write zeros for missing masses and limits; these become null.
+fn urdf(robot: &mut Value) {
+    let are_zero = |object: &Value, keys: &[&str]| keys.iter().all(|key| object[*key] == 0.0);
+    let origin = |element: &mut Value| {
+        if let Some(origin) = element.get_mut("origin") {
+            add(origin, json!({ "quat_xyzw": null }));
+        }
+    };
+    add(robot, json!({ "version": null, "unknown_elements": [] }));
+    for link in list(robot, "links") {
+        add(link, json!({ "unknown_elements": [] }));
+        list(link, "visual").for_each(origin);
+        list(link, "collision").for_each(origin);
+        let inertial = &link["inertial"];
+        if are_zero(&inertial["mass"], &["value"])
+            && are_zero(&inertial["inertia"], &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"])
+        {
+            add(link, json!({ "inertial": null }));
+        } else if let Some(inertial) = link.get_mut("inertial") {
+            origin(inertial);
+        }
+    }
+    for joint in list(robot, "joints") {
+        add(joint, json!({ "calibration": null, "unknown_elements": [] }));
+        origin(joint);
+        if are_zero(&joint["limit"], &["lower", "upper", "effort", "velocity"]) {
+            add(joint, json!({ "limit": null }));
+        } else if let Some(limit) = joint.get_mut("limit") {
+            add(limit, json!({ "acceleration": null, "deceleration": null, "jerk": null }));
+        }
+    }
+}
+
+/// Modules that the draft derived `link_shapes_simple_skips_module` from.
+pub const SIMPLE_SKIPS_DEPENDENCIES: [ModuleKind; 2] =
+    [ModuleKind::Chain, ModuleKind::LinkShapesDistanceStatistics];
+
+/// Whether a document that breaks its schema is otherwise a valid draft: `link_shapes_skips_module` without
+/// `skipped_reasons`, or `self_collision_model_module` with `held_out` instead of `evaluation`.
+pub(crate) fn is_draft(spec: &ModuleSpec, document: &Value) -> bool {
+    let Some(object) = document.as_object() else {
+        return false;
+    };
+    let mut completed = object.clone();
+    let (key, value) = match spec.kind {
+        ModuleKind::LinkShapesSkips => ("skipped_reasons", json!(SkippedReason::USUAL)),
+        ModuleKind::SelfCollisionModel if completed.shift_remove("held_out").is_some() => {
+            ("evaluation", json!(ModelEvaluation::NOTHING))
+        }
+        _ => return false,
+    };
+    if object.contains_key(key) {
+        return false;
+    }
+    completed.insert(key.to_owned(), value);
+    spec.read(&Value::Object(completed)).is_ok()
 }

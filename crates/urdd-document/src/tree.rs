@@ -1,7 +1,10 @@
 //! The kinematic tree of a robot's joints, its rigid groups (links connected by fixed joints), and its mimic joints,
 //! resolved through chains of mimics (SPEC 5.10).
+//! A robot with these, each computed on first use.
 
-use super::robot::Robot;
+use std::sync::OnceLock;
+
+use crate::robot::Robot;
 use urdd_format::urdf::JointType;
 
 /// A kinematic tree.
@@ -185,5 +188,42 @@ impl Mimics {
             }
         }
         Some(Mimics { by_joint })
+    }
+}
+
+/// A robot, its tree, its rigid groups and its mimics.
+#[derive(Default)]
+pub struct Mechanism {
+    robot: Robot,
+    tree: OnceLock<Option<Tree>>,
+    mimics: OnceLock<Option<Mimics>>,
+    rigid_groups: OnceLock<Option<RigidGroups>>,
+}
+
+impl Mechanism {
+    /// That of a robot.
+    pub fn new(robot: Robot) -> Self {
+        Mechanism { robot, ..Mechanism::default() }
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// The kinematic tree; `None` if the joints do not form a tree.
+    pub fn tree(&self) -> Option<&Tree> {
+        self.tree.get_or_init(|| Tree::new(&self.robot)).as_ref()
+    }
+
+    /// The rigid groups; `None` if the joints do not form a tree.
+    pub fn rigid_groups(&self) -> Option<&RigidGroups> {
+        let make = || Some(RigidGroups::new(&self.robot, self.tree()?));
+        self.rigid_groups.get_or_init(make).as_ref()
+    }
+
+    /// The resolved mimic joints; `None` if they cannot be resolved.
+    pub fn mimics(&self) -> Option<&Mimics> {
+        self.mimics.get_or_init(|| Mimics::resolve(&self.robot)).as_ref()
     }
 }

@@ -13,19 +13,16 @@ use std::sync::Arc;
 use flate2::Crc;
 use flate2::bufread::DeflateDecoder;
 
-use super::tree::{Item, Node, Tree};
+use super::memory::{Item, Node, Tree};
 use super::zip_list::{self, Listed, Packed, entry_fault};
 use super::{OpenFile, Source};
-use crate::file_type::FileType;
-use crate::layout::ROOT_METADATA;
+use crate::file_type::{FileType, ROOT_METADATA, RobotFile};
 use crate::limits::{
     MAX_ARCHIVE_BYTES, MAX_DOCUMENT_BYTES, MAX_INFLATED_BYTES, MAX_INFLATION, MAX_NAME_BYTES,
     MAX_PART_BYTES, SMALL_ARCHIVE_BYTES,
 };
-use crate::listing::Listing;
-use crate::read_error::{ArchiveFault, EntryFault, ReadError};
 use crate::regular;
-use crate::robot_file::RobotFile;
+use crate::source::{ArchiveFault, EntryFault, Listing, ReadError};
 use urdd_format::registry::ModuleKind;
 
 /// Longest target of a symbolic link, bytes.

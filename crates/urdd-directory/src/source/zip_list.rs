@@ -4,7 +4,7 @@
 //! entry. Programs differ in which one they use, and in where they look for the directory. So both must agree, and each
 //! byte must belong to one entry, the directory, or the end record. Then every program extracts the same files.
 
-use crate::read_error::{ArchiveFault, EntryFault};
+use crate::source::{ArchiveFault, EntryFault};
 
 const END: &[u8] = b"PK\x05\x06";
 const END_LENGTH: usize = 22;
@@ -31,7 +31,6 @@ const MICROSOFT: [u8; 2] = [0, 10];
 pub struct Listed<'a> {
     /// Its name, as arbitrary bytes.
     pub name: &'a [u8],
-    /// Whether it is encrypted.
     pub is_encrypted: bool,
     /// Whether a program of Windows may have written it.
     pub is_of_windows: bool,
@@ -39,14 +38,12 @@ pub struct Listed<'a> {
     pub is_zip64: bool,
     /// The file type bits of its Unix mode; 0 if it has none.
     pub kind: u32,
-    /// Its content.
     pub packed: Packed,
 }
 
 /// Location and properties of an entry's packed bytes.
 #[derive(Debug, Clone, Copy)]
 pub struct Packed {
-    /// Compression method.
     pub method: u16,
     /// CRC-32 of the content.
     pub crc: u32,
@@ -225,7 +222,6 @@ fn damaged(reason: &str) -> EntryFault {
     EntryFault::Damaged { reason }
 }
 
-/// The fault of an entry.
 pub fn entry_fault(name: &[u8], fault: EntryFault) -> ArchiveFault {
     ArchiveFault::Entry { name: String::from_utf8_lossy(name).into_owned(), fault }
 }

@@ -6,16 +6,13 @@ use std::ops::ControlFlow;
 use saphyr_parser::{Event, Marker, Parser, ScalarStyle, ScanError, Span, Tag};
 use serde_json::Value;
 
-use super::super::json_scan::push_segment;
-use super::super::limits::DEPTH_LIMIT;
-use super::super::position::Position;
-use super::super::text_fault::{TextFault, TextFaultKind, TextFaults};
-use super::disputes::{DISPUTED, End, Keys, OUTDENTED, Outdents, TORN, Tabs};
-use super::message;
 use super::open::{
-    Forced, Mapping, Member, Node, Open, Shape, Target, apply_tag, pointer, tag_fault,
+    self, Forced, Mapping, Member, Node, Open, Shape, Target, apply_tag, pointer, tag_fault,
 };
-use super::scalar::{self, Reading};
+use super::scalar::{self, DISPUTED, End, Keys, OUTDENTED, Outdents, Reading, TORN, Tabs};
+use crate::json_scan::push_segment;
+use crate::limits::DEPTH_LIMIT;
+use crate::position::{Position, TextFault, TextFaultKind, TextFaults};
 
 /// Reports how the YAML in `text` differs from `json`, and every construct that JSON lacks.
 pub fn compare(text: &str, json: &Value, faults: &mut TextFaults) {
@@ -62,12 +59,16 @@ enum Slot<'j> {
 
 impl<'j, 'y> Comparison<'j, 'y, '_> {
     fn event(&mut self, event: Event<'y>, span: Span) -> ControlFlow<()> {
-        let (at, kind) = (place(span.start), scalar_kind(&event));
-        self.tabs.pass(span, kind, self.faults);
+        let at = place(span.start);
+        let style = match &event {
+            Event::Scalar(_, style, ..) => Some(*style),
+            _ => None,
+        };
+        self.tabs.pass(span, style, self.faults);
         match event {
             Event::StreamEnd if self.documents == 0 => {
                 let json = self.root;
-                self.differs(at, || message::differs("nothing", json));
+                self.differs(at, || open::differs("nothing", json));
             }
             Event::DocumentStart(_) => {
                 self.documents += 1;
@@ -174,10 +175,10 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             self.plain_key(&text, flow, at);
         }
         match member {
-            Member::Extra => self.differs(at, || message::extra_key(&text)),
+            Member::Extra => self.differs(at, || open::extra_key(&text)),
             Member::Repeated => {
                 let kind = TextFaultKind::YamlDuplicateKey;
-                self.add(at, kind, || message::repeated_key(&text));
+                self.add(at, kind, || open::repeated_key(&text));
             }
             Member::Expected(_) | Member::Unknown => {}
         }
@@ -188,12 +189,12 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         let readings = scalar::classify(text);
         let kind = TextFaultKind::YamlAmbiguousScalar;
         if readings.ambiguous {
-            self.add(at, kind, || message::ambiguous(text, readings, None));
+            self.add(at, kind, || open::ambiguous(text, readings, None));
         } else if readings.yaml12 != Reading::Text {
             let kind = TextFaultKind::YamlNonStringKey;
-            self.add(at, kind, || message::not_a_string(text, readings.yaml12));
+            self.add(at, kind, || open::not_a_string(text, readings.yaml12));
         } else if flow && text.contains('?') {
-            self.add(at, kind, || message::question_mark(text));
+            self.add(at, kind, || open::question_mark(text));
         }
     }
 
@@ -212,19 +213,19 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             _ => {
                 let readings = scalar::classify(text);
                 if readings.ambiguous && plain && !tagged {
-                    let fault = || message::ambiguous(text, readings, target.json);
+                    let fault = || open::ambiguous(text, readings, target.json);
                     self.add(at, TextFaultKind::YamlAmbiguousScalar, fault);
                 }
                 readings.yaml12
             }
         };
         if plain && reading == Reading::Text && self.is_flow() && text.contains('?') {
-            self.add(at, TextFaultKind::YamlAmbiguousScalar, || message::question_mark(text));
+            self.add(at, TextFaultKind::YamlAmbiguousScalar, || open::question_mark(text));
         }
         if let Some(json) = target.json
             && !scalar::agrees(reading, text, json)
         {
-            self.differs(at, || message::differs(&message::found(text, reading), json));
+            self.differs(at, || open::differs(&open::found(text, reading), json));
         }
     }
 
@@ -261,7 +262,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             ("a mapping", object.is_some(), Shape::Mapping(Mapping::new(object)))
         };
         if let Some(json) = json.filter(|_| !fits) {
-            self.differs(at, || message::differs(found, json));
+            self.differs(at, || open::differs(found, json));
         }
         // In block style, the start event of a list or mapping has an empty span.
         let flow = self.is_flow() || (tag.is_none() && anchor == 0 && !span.is_empty());
@@ -294,7 +295,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
                     return;
                 };
                 self.faults.add(TextFaultKind::YamlDiffers, || {
-                    message::length(*begun, expected)
+                    open::length(*begun, expected)
                         .at(open.start)
                         .of(with_variant(pointer(&self.open)))
                 });
@@ -304,7 +305,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
                     self.faults.add(TextFaultKind::YamlDiffers, || {
                         let mut pointer = with_variant(pointer(&self.open));
                         push_segment(&mut pointer, key);
-                        message::missing_key(key, value).at(open.start).of(pointer)
+                        open::missing_key(key, value).at(open.start).of(pointer)
                     });
                 }
             }
@@ -328,8 +329,8 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         let Some(tag) = tag else {
             return target;
         };
-        let variant = apply_tag(tag, node, &mut target);
-        self.add(at, TextFaultKind::YamlTag, || tag_fault(tag, variant));
+        let instead = apply_tag(tag, node, &mut target);
+        self.add(at, TextFaultKind::YamlTag, || tag_fault(tag, &instead));
         target
     }
 
@@ -339,7 +340,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         if error.info() == "recursion limit exceeded" {
             return self.too_deep(at);
         }
-        let message = message::unparsed(text, error);
+        let message = open::unparsed(text, error);
         self.report(at, TextFaultKind::YamlSyntax, &message);
     }
 
@@ -362,13 +363,6 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
     fn add(&mut self, at: Position, kind: TextFaultKind, fault: impl FnOnce() -> TextFault) {
         let (open, end) = (&self.open, &self.end);
         self.faults.add(kind, || fault().at(end.at_most(at)).of(pointer(open)));
-    }
-}
-
-fn scalar_kind(event: &Event<'_>) -> Option<ScalarStyle> {
-    match event {
-        Event::Scalar(_, style, ..) => Some(*style),
-        _ => None,
     }
 }
 

@@ -1,15 +1,15 @@
-//! YAML as a value, with the place of each part.
+//! YAML as a value: with the place of each part; or, of another program's file, with words alone as scalars.
 
 use std::collections::HashMap;
 use std::ops::Range;
 
-use saphyr_parser::{Event, Parser, ScalarStyle, Span};
+use saphyr_parser::{Event, Marker, Parser, ScalarStyle, Span};
 use serde_json::{Map, Number, Value};
 
-use super::super::json_scan::push_segment;
-use super::super::limits::DEPTH_LIMIT;
-use super::super::position::Offsets;
-use super::scalar::{Reading, classify};
+use crate::json_scan::push_segment;
+use crate::limits::DEPTH_LIMIT;
+use crate::position::Offsets;
+use crate::yaml::scalar::{Reading, classify};
 
 /// Bytes of pointers for each byte of a text: long keys are in the pointers of all that is below them.
 const MAX_POINTER_BYTES: usize = 32;
@@ -36,8 +36,10 @@ impl Yaml {
     }
 }
 
+/// A list or an object whose end has not come.
 enum Open {
     List(Vec<Value>),
+    /// With the key whose value comes next.
     Object(Map<String, Value>, Option<String>),
 }
 
@@ -118,9 +120,7 @@ impl PlaceReader<'_> {
 
     /// The value at the pointer begins.
     fn begin(&mut self, start: usize) -> Option<()> {
-        // A list or mapping as a key.
-        if matches!(self.open.last(), Some(Open::Object(_, None))) || self.open.len() >= DEPTH_LIMIT
-        {
+        if is_key_due(&self.open) || self.open.len() >= DEPTH_LIMIT {
             return None;
         }
         self.place(start, start)
@@ -173,4 +173,95 @@ fn scalar(text: &str, is_plain: bool) -> Option<Value> {
         Reading::NonFinite => return None,
         Reading::Text | Reading::Timestamp | Reading::Special => Value::String(text.to_owned()),
     })
+}
+
+/// Why a file of another program cannot be read, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WordsFault {
+    /// From 1.
+    pub line: usize,
+    /// From 1.
+    pub column: usize,
+    /// What is wrong.
+    pub reason: String,
+}
+
+impl WordsFault {
+    fn new(at: Marker, reason: impl Into<String>) -> Self {
+        WordsFault { line: at.line(), column: at.col() + 1, reason: reason.into() }
+    }
+}
+
+/// The one document of a file. Every scalar is a string, or null where it is empty or `null`.
+///
+/// # Errors
+/// If it is not YAML, has a tag, an anchor, an alias, a key twice or one that is no string, or is nested too deep.
+pub fn read_words(text: &str) -> Result<Value, WordsFault> {
+    let mut parser = Parser::new_from_str(text);
+    let mut open: Vec<Open> = Vec::new();
+    let mut root = None;
+    while let Some(next) = parser.next_event() {
+        let (event, span) =
+            next.map_err(|error| WordsFault::new(*error.marker(), error.info().to_owned()))?;
+        let at = span.start;
+        let done = match event {
+            Event::Alias(_) => return Err(WordsFault::new(at, "aliases are not read here")),
+            Event::Scalar(_, _, anchor, ref tag)
+            | Event::SequenceStart(anchor, ref tag)
+            | Event::MappingStart(anchor, ref tag)
+                if anchor != 0 || tag.is_some() =>
+            {
+                return Err(WordsFault::new(at, "tags and anchors are not read here"));
+            }
+            Event::SequenceStart(..) | Event::MappingStart(..) if open.len() >= DEPTH_LIMIT => {
+                return Err(WordsFault::new(at, "it is nested too deep"));
+            }
+            Event::DocumentStart(_) if root.is_some() => {
+                return Err(WordsFault::new(at, "a second document begins here"));
+            }
+            Event::SequenceStart(..) | Event::MappingStart(..) if is_key_due(&open) => {
+                return Err(WordsFault::new(at, "this key is no string"));
+            }
+            Event::SequenceStart(..) => {
+                open.push(Open::List(Vec::new()));
+                continue;
+            }
+            Event::MappingStart(..) => {
+                open.push(Open::Object(Map::new(), None));
+                continue;
+            }
+            Event::SequenceEnd | Event::MappingEnd => match open.pop() {
+                Some(Open::List(list)) => Value::Array(list),
+                Some(Open::Object(mapping, _)) => Value::Object(mapping),
+                None => continue,
+            },
+            Event::Scalar(word, style, ..) => {
+                let is_null = style == ScalarStyle::Plain && matches!(&*word, "" | "~" | "null");
+                if let Some(Open::Object(mapping, key @ None)) = open.last_mut() {
+                    if mapping.contains_key(&*word) {
+                        return Err(WordsFault::new(at, "this key is there twice"));
+                    }
+                    *key = Some(word.into_owned());
+                    continue;
+                }
+                if is_null { Value::Null } else { Value::String(word.into_owned()) }
+            }
+            _ => continue,
+        };
+        match open.last_mut() {
+            None => root = Some(done),
+            Some(Open::List(list)) => list.push(done),
+            Some(Open::Object(mapping, key)) => {
+                if let Some(key) = key.take() {
+                    mapping.insert(key, done);
+                }
+            }
+        }
+    }
+    Ok(root.unwrap_or(Value::Null))
+}
+
+/// Whether a key is due, where no list or mapping can stand.
+fn is_key_due(open: &[Open]) -> bool {
+    matches!(open.last(), Some(Open::Object(_, None)))
 }

@@ -2,7 +2,7 @@
 
 use urdd_directory::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
 use urdd_directory::read_error::ReadError;
-use urdd_directory::source::tree::*;
+use urdd_directory::source::{Item, Node, Tree};
 
 fn tree(paths: &[&str]) -> Result<Tree<()>, String> {
     let item = |path: &&str| {

@@ -1,7 +1,7 @@
 //! Checks whether YAML mirrors a JSON text in bounded memory: a matrix is read one row at a time.
 
 use urdd_directory::limits::DEPTH_LIMIT;
-use urdd_directory::yaml::transcript::*;
+use urdd_directory::yaml::is_mirrored;
 use urdd_directory::{canonical, json};
 
 const TEXTS: [&str; 7] = [
