@@ -128,7 +128,9 @@ pub fn examined(
     }
     told::mark(&mut examined.checks);
     if !is_mended {
-        told::mark_misspelt(&subject, &mut examined.checks, |text| job.again(text));
+        told::mark_misspelt(&subject, &mut examined.checks, |text, with_programs| {
+            job.again(text, with_programs)
+        });
     }
     let stale = told::allow(document, name, &mut examined.checks);
     (examined, stale)
@@ -191,8 +193,8 @@ impl Job<'_> {
         checks.sort_by_key(|check| check.rule.code);
     }
 
-    /// What all rules find in another text; `None` if it is no XML.
-    fn again(self, text: &str) -> Option<Vec<Check>> {
+    /// What all rules find in another text, with what programs do because of it or without; `None` if it is no XML.
+    fn again(self, text: &str, with_programs: bool) -> Option<Vec<Check>> {
         let xml = &Xml::new(text);
         let job = Job { xml, original: None, ..self };
         let document = xml.document().ok()?;
@@ -202,7 +204,14 @@ impl Job<'_> {
         let source = source.as_ref();
         let subject = Subject::new(self.name, folder, document, source, settings, self.srdfs);
         job.run(&subject, &mut checks, |checks| {
-            job.ask().map_or_else(Vec::new, |mut asked| attach(&subject, &mut asked, checks, &[]))
+            let own: Vec<_> = checks.iter().map(|check| check.findings.clone()).collect();
+            let Some(mut asked) = job.ask() else { return Vec::new() };
+            let left = attach(&subject, &mut asked, checks, &[]);
+            if !with_programs {
+                let all = checks.iter_mut().zip(own);
+                all.for_each(|(check, own)| check.findings = own);
+            }
+            left
         });
         Some(checks)
     }

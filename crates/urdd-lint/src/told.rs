@@ -1,5 +1,6 @@
 //! What is not told by itself of what rules found: what follows from other findings, and what a comment in the URDF allows.
 
+use std::cell::LazyCell;
 use std::collections::{HashMap, HashSet};
 use std::hash::Hash;
 use std::str::FromStr;
@@ -56,12 +57,13 @@ pub fn mark(checks: &mut [Check]) {
 /// Maximum number of names that are mended each by itself.
 const MOST_TRIED: usize = 8;
 
-/// Marks the findings that go away when misspelt names are mended. `again` runs the rules on another text; `None` if it is
-/// no XML. A finding follows from the name that takes it away by itself: of those in its link or joint, or else of all.
+/// Marks the findings that go away when misspelt names are mended. A finding follows from the name that takes it away by
+/// itself: of those in its link or joint, or else of all. `again` runs the rules on another text, and says in their findings
+/// what programs do or not; `None` if it is no XML.
 pub fn mark_misspelt(
     urdf: &Subject,
     checks: &mut [Check],
-    again: impl Fn(&str) -> Option<Vec<Check>>,
+    again: impl Fn(&str, bool) -> Option<Vec<Check>>,
 ) {
     let misspelt: HashSet<Position> =
         reported(checks, Code::LNT040).filter_map(|(place, _)| at(place)).collect();
@@ -70,10 +72,10 @@ pub fn mark_misspelt(
     if misspellings.is_empty() {
         return;
     }
-    let gone = |meant: Option<&str>| {
-        let its = misspellings.iter().filter(|one| meant.is_none_or(|meant| one.meant == meant));
-        mended(urdf.text, checks, its.flat_map(|one| one.edits.clone()).collect(), &again)
-    };
+    let edits: Vec<Edit> = misspellings.iter().flat_map(|one| one.edits.clone()).collect();
+    let mended = apply(urdf.text, edits.clone());
+    let Some(others) = again(&mended, true) else { return };
+    let moves = Moves::new(urdf.text, &mended, edits);
     // The first of each meaning, in each link or joint and in all.
     let mut firsts: HashMap<Option<&str>, Vec<&Misspelling>> = HashMap::new();
     for one in &misspellings {
@@ -85,24 +87,48 @@ pub fn mark_misspelt(
             }
         }
     }
-    let all = firsts.get(&None).map(Vec::as_slice).unwrap_or_default();
-    let tried = all.iter().take(if all.len() > 1 { MOST_TRIED } else { 0 });
-    let by_itself: HashMap<&str, HashSet<(Code, Position, &str)>> = tried
-        .map(|one| {
-            let keys = gone(Some(one.meant)).into_iter();
-            (one.meant, keys.map(|(code, _, at, message)| (code, at, message)).collect())
-        })
-        .collect();
-    let effect = |(code, place, at, message): (Code, &Place, Position, &str)| {
-        let part = place.subject.as_deref().filter(|part| firsts.contains_key(&Some(part)));
-        let near = firsts.get(&part)?;
-        let takes = |one: &&&Misspelling| {
-            by_itself.get(one.meant).is_some_and(|gone| gone.contains(&(code, at, message)))
-        };
-        let cause = (Code::LNT040, near.iter().find(takes).or(near.first())?.at);
-        Some((code, FollowsFrom { at, cause, message: message.to_owned() }))
+    let own = LazyCell::new(|| again(urdf.text, false).unwrap_or_default());
+    // What goes away with one meaning.
+    let by_itself = |meant: &str| {
+        let of_meant = misspellings.iter().filter(|one| one.meant == meant);
+        let edits: Vec<Edit> = of_meant.flat_map(|one| one.edits.clone()).collect();
+        let mended = apply(urdf.text, edits.clone());
+        let others = again(&mended, false).unwrap_or_default();
+        let moves = Moves::new(urdf.text, &mended, edits);
+        let mut all = HashSet::new();
+        for (check, other) in both(&own, &others) {
+            let left: HashSet<(Position, &str)> = here(other).collect();
+            let gone = numbered(check).filter(|((at, _), message)| {
+                moves.moved(*at).is_some_and(|there| !left.contains(&(there, message)))
+            });
+            all.extend(gone.map(|(key, _)| (check.rule.code, key)));
+        }
+        all
     };
-    let effects: Vec<(Code, FollowsFrom)> = gone(None).into_iter().filter_map(effect).collect();
+    let mut tried: HashMap<&str, HashSet<(Code, Numbered)>> = HashMap::new();
+    let mut effects = Vec::new();
+    for (check, other) in both(checks, &others).filter(|(one, _)| one.rule.code != Code::LNT040) {
+        let code = check.rule.code;
+        let mut numbers = HashMap::new();
+        for ((at, number), message) in numbered(check) {
+            numbers.entry((at, message)).or_insert(number);
+        }
+        for (place, at, message) in gone(check, other, |at| moves.moved(at)) {
+            let part = place.subject.as_deref().filter(|part| firsts.contains_key(&Some(part)));
+            let near = firsts.get(&part).map(Vec::as_slice).unwrap_or_default();
+            let key = (code, (at, numbers[&(at, message)]));
+            let mut takes = |one: &&&Misspelling| {
+                if !tried.contains_key(one.meant) && tried.len() < MOST_TRIED {
+                    tried.insert(one.meant, by_itself(one.meant));
+                }
+                tried.get(one.meant).is_some_and(|gone| gone.contains(&key))
+            };
+            let best = near.iter().find(|one| near.len() > 1 && takes(one)).or(near.first());
+            let cause = best.map(|best| (Code::LNT040, best.at));
+            let message = message.to_owned();
+            effects.extend(cause.map(|cause| (code, FollowsFrom { at, cause, message })));
+        }
+    }
     for (code, effect) in effects {
         if let Some(check) = checks.iter_mut().find(|check| check.rule.code == code) {
             check.effects.push(effect);
@@ -110,39 +136,61 @@ pub fn mark_misspelt(
     }
 }
 
-/// The findings that are gone where a text is mended, but for those of LNT040: rule, place and what they say.
-fn mended<'c>(
-    text: &str,
+/// Where what is in a text is when it is mended.
+struct Moves<'t> {
+    from: LineIndex<'t>,
+    to: LineIndex<'t>,
+    /// How far edits up to each place move what follows.
+    by: Vec<(usize, isize)>,
+}
+
+impl<'t> Moves<'t> {
+    fn new(text: &'t str, mended: &'t str, mut edits: Vec<Edit>) -> Self {
+        let mut all: Vec<(usize, isize)> = Vec::new();
+        edits.sort_by_key(|edit| edit.range.start);
+        for edit in &edits {
+            let before = all.last().map_or(0, |(_, by)| *by);
+            let by = edit.text.len() as isize - edit.range.len() as isize;
+            all.push((edit.range.start, before + by));
+        }
+        Moves { from: LineIndex::new(text), to: LineIndex::new(mended), by: all }
+    }
+
+    fn moved(&self, at: Position) -> Option<Position> {
+        let offset = self.from.offset(at)?;
+        let edits_before = self.by.partition_point(|(start, _)| *start < offset);
+        let by = edits_before.checked_sub(1).map_or(0, |last| self.by[last].1);
+        Some(self.to.position(offset.checked_add_signed(by)?))
+    }
+}
+
+/// The results of each rule that ran on another text too.
+fn both<'c>(
     checks: &'c [Check],
-    mut edits: Vec<Edit>,
-    again: impl Fn(&str) -> Option<Vec<Check>>,
-) -> Vec<(Code, &'c Place, Position, &'c str)> {
-    let mended = apply(text, edits.clone());
-    let Some(others) = again(&mended) else { return Vec::new() };
-    let (from, to) = (LineIndex::new(text), LineIndex::new(&mended));
-    // How far edits up to each place move what follows.
-    let mut moves: Vec<(usize, isize)> = Vec::new();
-    edits.sort_by_key(|edit| edit.range.start);
-    for edit in &edits {
-        let before = moves.last().map_or(0, |(_, by)| *by);
-        let by = edit.text.len() as isize - edit.range.len() as isize;
-        moves.push((edit.range.start, before + by));
-    }
-    let moved = |at| {
-        let offset = from.offset(at)?;
-        let edits_before = moves.partition_point(|(start, _)| *start < offset);
-        let by = edits_before.checked_sub(1).map_or(0, |last| moves[last].1);
-        Some(to.position(offset.checked_add_signed(by)?))
-    };
-    let mut all = Vec::new();
-    for check in checks.iter().filter(|check| check.rule.code != Code::LNT040) {
-        let mut others = others.iter();
-        let other = others.find(|other| other.rule.code == check.rule.code);
-        let ran = |other: &&Check| matches!(other.outcome, Outcome::Passed | Outcome::Failed);
-        let gone = other.filter(ran).map(|other| gone(check, other, moved)).unwrap_or_default();
-        all.extend(gone.into_iter().map(|(place, at, said)| (check.rule.code, place, at, said)));
-    }
-    all
+    others: &'c [Check],
+) -> impl Iterator<Item = (&'c Check, &'c Check)> {
+    checks.iter().filter_map(|check| {
+        let other = others.iter().find(|other| other.rule.code == check.rule.code)?;
+        let ran = matches!(other.outcome, Outcome::Passed | Outcome::Failed);
+        ran.then_some((check, other))
+    })
+}
+
+/// Where a rule's findings are, and what they say.
+fn here(check: &Check) -> impl Iterator<Item = (Position, &str)> {
+    check.said().filter_map(|(place, message)| Some((at(place)?, message)))
+}
+
+/// Where a finding is, and its number among those of its rule there: what it says may depend on programs.
+type Numbered = (Position, usize);
+
+fn numbered(check: &Check) -> impl Iterator<Item = (Numbered, &str)> {
+    let mut counts: HashMap<Position, usize> = HashMap::new();
+    here(check).map(move |(at, message)| {
+        let count = counts.entry(at).or_default();
+        *count += 1;
+        ((at, *count), message)
+    })
 }
 
 /// Marks the findings of a rule that follow from those of another with the same `key`.
@@ -204,8 +252,7 @@ fn gone<'c>(
     other: &Check,
     moved: impl Fn(Position) -> Option<Position>,
 ) -> Vec<(&'c Place, Position, &'c str)> {
-    let left: HashSet<(Position, &str)> =
-        other.said().filter_map(|(place, message)| Some((at(place)?, message))).collect();
+    let left: HashSet<(Position, &str)> = here(other).collect();
     let mut fewer: HashMap<Option<&str>, usize> = HashMap::new();
     for (place, _) in check.said() {
         *fewer.entry(place.subject.as_deref()).or_default() += 1;
