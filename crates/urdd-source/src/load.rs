@@ -282,7 +282,6 @@ fn in_memory(
     Ok(loaded?.0)
 }
 
-/// Decodes bytes that are in memory.
 fn held(
     bytes: Vec<u8>,
     shown: &str,

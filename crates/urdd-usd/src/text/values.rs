@@ -7,7 +7,6 @@ use super::lexer::{Lexer, Token};
 use crate::error::{Fault, Wrong};
 use crate::layer::{Item, Layer, ListOp, MAX_FIELDS, MAX_VALUE_LEVELS, Name, Value, put, to_half};
 
-/// Reads the words of a layer.
 #[derive(Debug)]
 pub struct Reader<'t> {
     pub lexer: Lexer<'t>,
@@ -211,7 +210,6 @@ fn single(value: f64) -> f64 {
     f64::from(value as f32)
 }
 
-/// Numbers of a value of a type.
 fn width_of(kind: &str) -> usize {
     match kind {
         "quath" | "quatf" | "quatd" => 4,
@@ -229,7 +227,6 @@ fn width_of(kind: &str) -> usize {
     }
 }
 
-/// How a statement edits a list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Edit {
     Explicit,
@@ -379,7 +376,6 @@ impl Reader<'_> {
         }
     }
 
-    /// The paths of sublayers.
     fn sublayers(&mut self) -> Result<Value, Wrong> {
         self.lexer.take('[', "`[`")?;
         let mut all = Vec::new();
