@@ -87,8 +87,7 @@ pub fn joint_groups_of_srdf(robot: &Robot, text: &str) -> Result<Vec<JointGroup>
     let tables: Vec<Node> = srdf.elements("group").collect();
     let name = |node: &Node| node.attribute("name").unwrap_or_default().to_owned();
     let names: Vec<String> = tables.iter().map(name).collect();
-    let reader = GroupReader { structure: &structure, names: &names, srdf: &srdf };
-    let own = tables.iter().map(|table| reader.members(*table));
+    let own = tables.iter().map(|table| members(&srdf, *table, &structure, &names));
     let own = own.collect::<Result<Vec<_>, ReadError>>()?;
     let groups = (0..own.len()).map(|place| {
         let inner = |group: usize| own[group].1.as_slice();
@@ -101,56 +100,53 @@ pub fn joint_groups_of_srdf(robot: &Robot, text: &str) -> Result<Vec<JointGroup>
     groups.collect()
 }
 
-struct GroupReader<'a, 't> {
-    structure: &'a Structure,
-    names: &'a [String],
-    srdf: &'a Srdf<'t>,
+/// The joints and the groups of a group.
+fn members(
+    srdf: &Srdf,
+    table: Node,
+    structure: &Structure,
+    groups: &[String],
+) -> Result<(Vec<usize>, Vec<usize>), ReadError> {
+    let (mut joints, mut inner) = (Vec::new(), Vec::new());
+    let view = &structure.view;
+    let tree = &structure.tree;
+    let link_names = || view.links.iter().map(|link| link.name.as_str());
+    for node in table.children().filter(Node::is_element) {
+        let link = |attribute| place(srdf, node, "link", attribute, link_names());
+        match node.tag_name().name() {
+            "joint" => {
+                let names = view.joints.iter().map(|joint| joint.name.as_str());
+                joints.push(place(srdf, node, "joint", "name", names)?);
+            }
+            "link" => joints.extend(tree.parent_joint[link("name")?]),
+            "chain" => {
+                let [base, tip] = [link("base_link")?, link("tip_link")?];
+                if base != tip && structure.between(base, tip).is_empty() {
+                    let reason = "the base of this chain is not above its tip";
+                    return Err(srdf.wrong(node, reason));
+                }
+                joints.extend(structure.between(base, tip));
+            }
+            "group" => {
+                let names = groups.iter().map(String::as_str);
+                inner.push(place(srdf, node, "group", "name", names)?);
+            }
+            _ => {}
+        }
+    }
+    Ok((joints, inner))
 }
 
-impl GroupReader<'_, '_> {
-    /// The joints and the groups of a group.
-    fn members(&self, table: Node) -> Result<(Vec<usize>, Vec<usize>), ReadError> {
-        let (mut joints, mut groups) = (Vec::new(), Vec::new());
-        let view = &self.structure.view;
-        let tree = &self.structure.tree;
-        let link_names = || view.links.iter().map(|link| link.name.as_str());
-        for node in table.children().filter(Node::is_element) {
-            let link = |attribute| self.place(node, "link", attribute, link_names());
-            match node.tag_name().name() {
-                "joint" => {
-                    let names = view.joints.iter().map(|joint| joint.name.as_str());
-                    joints.push(self.place(node, "joint", "name", names)?);
-                }
-                "link" => joints.extend(tree.parent_joint[link("name")?]),
-                "chain" => {
-                    let [base, tip] = [link("base_link")?, link("tip_link")?];
-                    if base != tip && self.structure.between(base, tip).is_empty() {
-                        let reason = "the base of this chain is not above its tip";
-                        return Err(self.srdf.wrong(node, reason));
-                    }
-                    joints.extend(self.structure.between(base, tip));
-                }
-                "group" => {
-                    let names = self.names.iter().map(String::as_str);
-                    groups.push(self.place(node, "group", "name", names)?);
-                }
-                _ => {}
-            }
-        }
-        Ok((joints, groups))
-    }
-
-    /// The place of what an attribute names.
-    fn place<'n>(
-        &self,
-        node: Node,
-        what: &'static str,
-        attribute: &str,
-        mut names: impl Iterator<Item = &'n str> + Clone,
-    ) -> Result<usize, ReadError> {
-        let name = node.attribute(attribute).unwrap_or_default();
-        let all = names.clone();
-        let found = names.position(|known| known == name);
-        found.ok_or_else(|| self.srdf.wrong(node, unknown(what, name, all)))
-    }
+/// The place of what an attribute names.
+fn place<'n>(
+    srdf: &Srdf,
+    node: Node,
+    what: &'static str,
+    attribute: &str,
+    mut names: impl Iterator<Item = &'n str> + Clone,
+) -> Result<usize, ReadError> {
+    let name = node.attribute(attribute).unwrap_or_default();
+    let all = names.clone();
+    let found = names.position(|known| known == name);
+    found.ok_or_else(|| srdf.wrong(node, unknown(what, name, all)))
 }

@@ -24,22 +24,6 @@ pub(super) enum MeshFormat {
     Obj,
 }
 
-impl MeshFormat {
-    fn ending(self) -> &'static str {
-        match self {
-            MeshFormat::Stl => "stl",
-            MeshFormat::Obj => "obj",
-        }
-    }
-
-    fn write(self, part: Part) -> Result<Vec<u8>, WriteError> {
-        match self {
-            MeshFormat::Stl => stl(&[part]),
-            MeshFormat::Obj => obj(&[part]),
-        }
-    }
-}
-
 /// Files by path. Equal content shares one file.
 pub(super) struct MeshFiles<'a> {
     subject: &'a Subject<'a>,
@@ -60,8 +44,13 @@ impl<'a> MeshFiles<'a> {
         mesh: Mesh,
         format: MeshFormat,
     ) -> Result<String, ExportError> {
-        let bytes = format.write(Part::from(mesh)).map_err(self.fault(link))?;
-        Ok(self.file(link, what, format.ending(), bytes))
+        let parts = [Part::from(mesh)];
+        let (ending, bytes) = match format {
+            MeshFormat::Stl => ("stl", stl(&parts)),
+            MeshFormat::Obj => ("obj", obj(&parts)),
+        };
+        let bytes = bytes.map_err(self.fault(link))?;
+        Ok(self.file(link, what, ending, bytes))
     }
 
     /// Adds visual geometry as OBJ, with its texture. Returns the paths of both.
@@ -85,7 +74,7 @@ impl<'a> MeshFiles<'a> {
                 self.file(link, &format!("material_{place}"), "mtl", library.into_bytes());
             bytes = format!("mtllib {}\nusemtl texture\n", last(&library)).into_bytes();
         }
-        bytes.extend(MeshFormat::Obj.write(look.part).map_err(self.fault(link))?);
+        bytes.extend(obj(&[look.part]).map_err(self.fault(link))?);
         Ok((self.file(link, &what, "obj", bytes), Some(image)))
     }
 

@@ -194,22 +194,14 @@ pub(super) fn spheres(
         context.progress.part(ModuleKind::LinkShapesSpheres, done, total);
     };
     let mut notes = Vec::new();
-    for list in &context.spheres {
-        let has_piece = |name: &str| {
-            names
-                .iter()
-                .position(|link| *link == name)
-                .is_some_and(|link| pairs.links.contains(&link))
+    for (name, spheres) in context.spheres.iter().flat_map(|list| &list.links) {
+        let what = match names.iter().position(|link| link == name) {
+            Some(link) if pairs.links.contains(&link) => continue,
+            Some(_) => "which has no shape",
+            None => "which the robot does not have",
         };
-        for (name, spheres) in list.links.iter().filter(|(name, _)| !has_piece(name)) {
-            let what = match names.contains(&name.as_str()) {
-                true => "which has no shape",
-                false => "which the robot does not have",
-            };
-            let problem =
-                format!("{} given spheres are of the link `{name}`, {what}", spheres.len());
-            notes.push(context.note(NoteKind::LeftOut, problem, "these spheres are left out"));
-        }
+        let problem = format!("{} given spheres are of the link `{name}`, {what}", spheres.len());
+        notes.push(context.note(NoteKind::LeftOut, problem, "these spheres are left out"));
     }
     match module::module(&subject, &context.settings.cancellation, &progress) {
         Ok(module) => Ok(Made { notes, ..made(&module)? }),

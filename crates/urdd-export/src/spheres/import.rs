@@ -115,10 +115,7 @@ const MOST_NAMED: usize = 20;
 
 impl LeftOut {
     fn add(&mut self, reason: impl FnOnce() -> String) {
-        match self.named.len() < MOST_NAMED {
-            true => self.named.push(reason()),
-            false => self.more += 1,
-        }
+        if self.named.len() < MOST_NAMED { self.named.push(reason()) } else { self.more += 1 }
     }
 
     fn said(mut self) -> Vec<String> {
@@ -206,10 +203,7 @@ pub fn read_spheres(text: &str) -> Result<SphereList, ListError> {
     if buffer.is_some_and(|buffer| buffer.as_f64() != Some(0.0)) {
         list.left_out.push("`collision_sphere_buffer`: radii are as the list has them".to_owned());
     }
-    match list.links.is_empty() {
-        true => Err(ListError::NoSpheres),
-        false => Ok(list),
-    }
+    if list.links.is_empty() { Err(ListError::NoSpheres) } else { Ok(list) }
 }
 
 /// How a form of lists says its spheres.

@@ -25,13 +25,8 @@ type Faulty = (Range<usize>, String);
 impl Made<'_> {
     /// The loops and couplings by index, without configurations.
     pub(super) fn resolved(&self, said: &Said, notes: &mut Vec<Note>) -> Result<LoopsModule> {
-        let links: HashMap<&str, usize> = self
-            .chain
-            .links_in_chain
-            .iter()
-            .enumerate()
-            .map(|(idx, link)| (link.name.as_str(), idx))
-            .collect();
+        let links = self.chain.links_in_chain.iter().map(|link| link.name.as_str());
+        let links: HashMap<&str, usize> = links.zip(0..).collect();
         let File { loops, couplings, .. } = &said.file;
         let mut names: HashSet<&str> = HashSet::new();
         let mut is_new = |name| match names.insert(name) {
@@ -135,10 +130,8 @@ impl Made<'_> {
         let of = one.get_ref();
         let name = Short::of(&of.name);
         if !of.constant.is_finite() {
-            return Err((
-                one.span(),
-                format!("the constant of the coupling `{name}` is not finite"),
-            ));
+            let fault = format!("the constant of the coupling `{name}` is not finite");
+            return Err((one.span(), fault));
         }
         let mut sum = Terms::new(of.constant);
         let mut names_dof = false;

@@ -63,7 +63,8 @@ pub(crate) fn link_geometries(
     };
     let quaternions = origin::has_quaternions(robot.version.as_deref());
     let colors = Colors::of(robot);
-    let budget = TriangleBudget::default();
+    // Counted before they are built: even a tiny URDF can reference a mesh or a sphere many times.
+    let all = AtomicUsize::new(0);
     let links: Vec<_> = robot.links.iter().enumerate().collect();
     let geometries: Vec<Result<Option<LinkGeometry>, Fault>> = links
         .into_par_iter()
@@ -77,7 +78,12 @@ pub(crate) fn link_geometries(
                     element.scene = named.get(&(link_idx, kind, element_idx)).copied();
                 }
                 elements.retain(is_usable);
-                if !budget.take(&link.name, elements.iter().map(num_triangles).sum())? {
+                let found: usize = elements.iter().map(num_triangles).sum();
+                if found > MOST_LINK_TRIANGLES {
+                    let (link, limit) = (link.name.as_str().into(), MOST_LINK_TRIANGLES);
+                    return Err(Fault::TooManyTriangles { link, found, limit });
+                }
+                if all.fetch_add(found, Ordering::Relaxed) + found > MOST_TRIANGLES {
                     return Ok(None);
                 }
                 let parts: Vec<Part> = elements
@@ -93,7 +99,9 @@ pub(crate) fn link_geometries(
         })
         .collect();
     let geometries = geometries.into_iter().collect::<Result<_, Fault>>()?;
-    budget.check()?;
+    if all.into_inner() > MOST_TRIANGLES {
+        return Err(Fault::TooManyTrianglesInAll { limit: MOST_TRIANGLES });
+    }
     Ok(geometries)
 }
 
@@ -212,34 +220,6 @@ pub const MOST_TRIANGLES: usize = 10_000_000;
 /// Minimum ratio of a shape's width to its largest coordinate. Files store coordinates as binary32, and readers assume
 /// an accuracy of eight steps of that, some 1e-6. A thinner shape has no width for them.
 const LEAST_WIDTH: f64 = 4e-6;
-
-/// Counts the triangles of links before they are built: even a tiny URDF can reference a mesh or a sphere many times.
-#[derive(Debug, Default)]
-struct TriangleBudget(AtomicUsize);
-
-impl TriangleBudget {
-    /// Adds the triangles of a link. Returns whether all links so far are within the budget.
-    fn take(&self, link: &str, triangles: usize) -> Result<bool, Fault> {
-        if triangles > MOST_LINK_TRIANGLES {
-            return Err(Fault::TooManyTriangles {
-                link: link.into(),
-                found: triangles,
-                limit: MOST_LINK_TRIANGLES,
-            });
-        }
-        let before = self.0.fetch_add(triangles, Ordering::Relaxed);
-        Ok(before + triangles <= MOST_TRIANGLES)
-    }
-
-    /// # Errors
-    /// If all links together have too many.
-    fn check(&self) -> Result<(), Fault> {
-        if self.0.load(Ordering::Relaxed) > MOST_TRIANGLES {
-            return Err(Fault::TooManyTrianglesInAll { limit: MOST_TRIANGLES });
-        }
-        Ok(())
-    }
-}
 
 /// Refuses a link whose shape would have no width in its mesh files.
 fn check_resolved(link: &str, parts: &[Part]) -> Result<(), Fault> {
