@@ -102,6 +102,26 @@ fn each_part_that_is_computed_twice_is_in_the_table() {
     }
 }
 
+/// A format of imports has unit tests of its name, a driver that asks a program whose format it is, and fuzzing.
+#[test]
+fn each_format_of_imports_is_tested() {
+    let room = repository().join("crates/urdd-import/src");
+    let formats =
+        fs::read_dir(&room).expect("the room").map(|entry| entry.expect("an entry").path());
+    let formats: Vec<PathBuf> =
+        formats.filter(|path| path.is_dir() && !path.ends_with("tests")).collect();
+    assert!(formats.len() >= 3, "{formats:?}");
+    for format in formats {
+        let name = format.file_name().and_then(|name| name.to_str()).expect("a name");
+        let tests = [format!("{name}.rs"), format!("{name}/mod.rs")]
+            .map(|file| room.join("tests").join(file));
+        assert!(tests.iter().any(|file| file.exists()), "no unit tests of {name}");
+        for file in [format!("tests/figures/imports/{name}.py"), format!("fuzz/{name}.rs")] {
+            assert!(repository().join(&file).exists(), "no {file}");
+        }
+    }
+}
+
 /// Clippy refuses what writes files (`clippy.toml`). Only these files say that they may, and no library makes temporary
 /// files in another way.
 #[test]

@@ -214,7 +214,8 @@ fn the_page_parses_xml_in_one_place() {
     let text = fs::read_to_string(&named[0]).expect("a source");
     assert!(text.contains("MAX_TEXT = 4e6;") && text.contains("MAX_NAMES = 1000;"));
     let page = fs::read_to_string(repository().join("docs/security.md")).expect("the page");
-    let row = "DOMParser) | Only `page/src/missing.ts`. At most 4,000,000 characters and 1,000 names";
+    let row =
+        "DOMParser) | Only `page/src/missing.ts`. At most 4,000,000 characters and 1,000 names";
     assert!(page.contains(row), "{WHAT_TO_DO}");
 }
 
