@@ -148,8 +148,8 @@ impl Job<'_> {
     fn ask(self) -> Option<Asked> {
         let text = self.xml.text();
         let bytes = self.original.map_or(text.as_bytes(), |original| &original.bytes);
-        let offsets = self.original.map(Original::offsets).unwrap_or_default();
         let counted = self.xml.counted(bytes).ok()?;
+        let offsets = self.original.map(Original::offsets).unwrap_or_default();
         Some(Asked::about(counted, text, &offsets, self.folder, self.settings))
     }
 
