@@ -12,6 +12,7 @@
 
 pub(super) mod actuators;
 mod body;
+mod keyframes;
 
 use nalgebra::Translation3;
 
@@ -72,7 +73,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     if options.sensors {
         root.push_filled(body::sensors(subject));
     }
-    root.push_filled(actuators::keyframes(subject, options.actuators, &stand)?);
+    root.push_filled(keyframes::keyframes(subject, options.actuators, &stand)?);
     let mut files = bodies.files.into_files();
     if let Some(file) = scene_of {
         files.extend(scene(subject, file, &stand)?);
