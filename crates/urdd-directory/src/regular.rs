@@ -5,7 +5,7 @@ use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
 
-use crate::source::ReadError;
+use crate::listing::ReadError;
 
 /// Opens a regular file.
 ///

@@ -3,9 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-pub use crate::source::ReadError;
+pub use crate::listing::{Entry, EntryKind, Listing, ReadError};
 use crate::source::{Archive, Disk, OpenFile, Source, is_archive};
-pub use crate::source::{Entry, EntryKind, Listing};
 use crate::{path, regular};
 
 /// The root of a URDD.

@@ -2,9 +2,7 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use crate::{Note, Subject};
 use urdd_document::robot::Inertial;
-use urdd_document::tree::RigidGroups;
 use urdd_xml::number::{number, numbers};
 use urdd_xml::writer::Element;
 
@@ -88,29 +86,13 @@ pub fn for_drake(mass: f64, inertia: [f64; 6]) -> (f64, [f64; 6], Option<&'stati
 }
 
 /// MuJoCo's mjMINVAL, below which it treats a value as 0: kg and kg m².
-const MIN_VALUE: f64 = 1e-15;
+pub(super) const MIN_VALUE: f64 = 1e-15;
 /// Assumed mass of a moving body that needs one, kg.
 const ASSUMED_MASS: f64 = 1e-9;
 /// Assumed moment of inertia of a moving body that needs one, kg m².
 const ASSUMED_INERTIA: f64 = 1e-9;
 /// The least moment for which MuJoCo finds principal axes by itself: it neglects products of inertia below it.
 const LEAST_FULL: f64 = 1e-12;
-
-fn words_of_mujoco(odd: Odd) -> &'static str {
-    match odd {
-        Odd::Negative => "its mass is negative, which MuJoCo takes for 0; so it is here",
-        Odd::Indefinite => {
-            "its inertia has a negative principal moment, which MuJoCo refuses; the mass stays, and the inertia is 0"
-        }
-        Odd::Triangle => {
-            "a principal moment of inertia is more than the other two together, which MuJoCo refuses; MuJoCo takes their mean about each axis (balanceinertia)"
-        }
-    }
-}
-
-const NO_INERTIA: &str = "it moves, and MuJoCo refuses a moment of inertia of 0; the mass stays, and 1e-9 kg m² are assumed where it is less";
-const NO_MASS: &str =
-    "it moves without mass, which MuJoCo refuses; 1e-9 kg and 1e-9 kg m² are assumed";
 
 /// The mass and inertia of a body.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -123,42 +105,6 @@ pub struct Mass {
     pub axes: Rotation3<f64>,
     /// xx, yy, zz, xy, xz, yz in the link's frame, if these are equivalent and MuJoCo accepts them.
     full: Option<[f64; 6]>,
-}
-
-/// The `inertial` element of each link, and whether MuJoCo has to balance moments.
-pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option<Element>>, bool) {
-    let mut balanced = false;
-    let links = &subject.view.links;
-    let mut note = |link: usize, what: &'static str| {
-        notes.push(Note::Inertia { link: links[link].name.clone(), what });
-    };
-    let mut masses: Vec<Option<Mass>> = Vec::new();
-    for (link, view) in links.iter().enumerate() {
-        let (found, odd) = view.inertial.as_ref().map_or((None, None), mass);
-        masses.push(found);
-        balanced |= odd == Some(Odd::Triangle);
-        if let Some(odd) = odd {
-            note(link, words_of_mujoco(odd));
-        }
-    }
-    for group in RigidGroups::new(&subject.view, &subject.tree).groups {
-        if group.moved_by.is_none() && !subject.has_free_base() {
-            continue;
-        }
-        let of_link = |link: &usize| masses[*link].as_ref();
-        if group.links.iter().filter_map(of_link).any(Mass::is_enough) {
-            continue;
-        }
-        let weight = |link: &usize| of_link(link).map_or(0.0, |mass| mass.mass);
-        // The heaviest link, the first one on ties.
-        let heavier = |a: &usize, b: &usize| weight(a).total_cmp(&weight(b)).then(b.cmp(a));
-        let bodies = group.links.iter().filter(|link| !subject.is_frame(**link));
-        let Some(&link) = bodies.max_by(|a, b| heavier(a, b)) else { continue };
-        note(link, if weight(&link) > MIN_VALUE { NO_INERTIA } else { NO_MASS });
-        masses[link].get_or_insert_default().raise();
-    }
-    let elements = masses.into_iter().map(|mass| mass.map(Mass::element));
-    (elements.collect(), balanced)
 }
 
 /// The mass that MuJoCo uses for a link, and why it is not that of the URDF.
@@ -216,7 +162,8 @@ impl Mass {
         self.full = None;
     }
 
-    fn element(self) -> Element {
+    /// MJCF's element.
+    pub(super) fn element(self) -> Element {
         let element = Element::new("inertial")
             .with("pos", numbers(&self.centre))
             .with("mass", number(self.mass));

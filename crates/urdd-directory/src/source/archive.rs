@@ -21,8 +21,8 @@ use crate::limits::{
     MAX_ARCHIVE_BYTES, MAX_DOCUMENT_BYTES, MAX_INFLATED_BYTES, MAX_INFLATION, MAX_NAME_BYTES,
     MAX_PART_BYTES, SMALL_ARCHIVE_BYTES,
 };
+use crate::listing::{ArchiveFault, EntryFault, Listing, ReadError};
 use crate::regular;
-use crate::source::{ArchiveFault, EntryFault, Listing, ReadError};
 use urdd_format::registry::ModuleKind;
 
 /// Longest target of a symbolic link, bytes.

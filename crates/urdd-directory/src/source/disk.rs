@@ -23,9 +23,10 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-use super::{Entry, EntryKind, Listing, OpenFile, ReadError, Source};
+use super::{OpenFile, Source};
 use crate::file_type::ROOT_METADATA;
 use crate::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
+use crate::listing::{Entry, EntryKind, Listing, ReadError};
 use crate::regular;
 use urdd_format::registry::ModuleKind;
 

@@ -7,8 +7,9 @@ use std::io::{self, Cursor};
 use std::ops::Bound;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::{Entry, EntryKind, Listing, OpenFile, ReadError, Source};
+use super::{OpenFile, Source};
 use crate::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
+use crate::listing::{Entry, EntryKind, Listing, ReadError};
 use crate::path::{self, PathFault};
 
 /// Maximum number of symbolic links followed for one path, as on Linux.

@@ -4,7 +4,7 @@
 //! entry. Programs differ in which one they use, and in where they look for the directory. So both must agree, and each
 //! byte must belong to one entry, the directory, or the end record. Then every program extracts the same files.
 
-use crate::source::{ArchiveFault, EntryFault};
+use crate::listing::{ArchiveFault, EntryFault};
 
 const END: &[u8] = b"PK\x05\x06";
 const END_LENGTH: usize = 22;

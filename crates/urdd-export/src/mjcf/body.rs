@@ -5,13 +5,14 @@ use std::collections::HashSet;
 use nalgebra::Isometry3;
 
 use crate::gains::positive;
+use crate::inertia::{MIN_VALUE, Mass, Odd, mass};
 use crate::meshes::{Looks, looks};
 use crate::names::last;
 use crate::shapes::thick;
 use crate::{
-    ExportError, FlatShapes, MeshFiles, MeshFormat, Moves, Note, Shape, Solid, Subject, inertia,
-    meshes,
+    ExportError, FlatShapes, MeshFiles, MeshFormat, Moves, Note, Shape, Solid, Subject, meshes,
 };
+use urdd_document::tree::RigidGroups;
 use urdd_format::urdf::JointType;
 use urdd_geometry::primitives::Primitive;
 use urdd_xml::number::{number, numbers};
@@ -47,7 +48,7 @@ impl<'a> Bodies<'a> {
         if shapes.iter().all(Vec::is_empty) {
             notes.push(Note::NoShapes(subject.shapes));
         }
-        let (inertials, balanced) = inertia::inertials(subject, &mut notes);
+        let (inertials, balanced) = inertials(subject, &mut notes);
         Ok(Bodies {
             subject,
             shapes,
@@ -315,4 +316,56 @@ fn of_one(subject: &Subject, index: usize, kind: &'static str, notes: &mut Vec<N
         .with_some("damping", positive(dynamics.and_then(|d| d.damping)).map(number))
         .with_some("frictionloss", positive(dynamics.and_then(|d| d.friction)).map(number))
         .with_some("armature", armature.map(number))
+}
+
+fn words_of_mujoco(odd: Odd) -> &'static str {
+    match odd {
+        Odd::Negative => "its mass is negative, which MuJoCo takes for 0; so it is here",
+        Odd::Indefinite => {
+            "its inertia has a negative principal moment, which MuJoCo refuses; the mass stays, and the inertia is 0"
+        }
+        Odd::Triangle => {
+            "a principal moment of inertia is more than the other two together, which MuJoCo refuses; MuJoCo takes their mean about each axis (balanceinertia)"
+        }
+    }
+}
+
+const NO_INERTIA: &str = "it moves, and MuJoCo refuses a moment of inertia of 0; the mass stays, and 1e-9 kg m² are assumed where it is less";
+const NO_MASS: &str =
+    "it moves without mass, which MuJoCo refuses; 1e-9 kg and 1e-9 kg m² are assumed";
+
+/// The `inertial` element of each link, and whether MuJoCo has to balance moments.
+fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option<Element>>, bool) {
+    let mut balanced = false;
+    let links = &subject.view.links;
+    let mut note = |link: usize, what: &'static str| {
+        notes.push(Note::Inertia { link: links[link].name.clone(), what });
+    };
+    let mut masses: Vec<Option<Mass>> = Vec::new();
+    for (link, view) in links.iter().enumerate() {
+        let (found, odd) = view.inertial.as_ref().map_or((None, None), mass);
+        masses.push(found);
+        balanced |= odd == Some(Odd::Triangle);
+        if let Some(odd) = odd {
+            note(link, words_of_mujoco(odd));
+        }
+    }
+    for group in RigidGroups::new(&subject.view, &subject.tree).groups {
+        if group.moved_by.is_none() && !subject.has_free_base() {
+            continue;
+        }
+        let of_link = |link: &usize| masses[*link].as_ref();
+        if group.links.iter().filter_map(of_link).any(Mass::is_enough) {
+            continue;
+        }
+        let weight = |link: &usize| of_link(link).map_or(0.0, |mass| mass.mass);
+        // The heaviest link, the first one on ties.
+        let heavier = |a: &usize, b: &usize| weight(a).total_cmp(&weight(b)).then(b.cmp(a));
+        let bodies = group.links.iter().filter(|link| !subject.is_frame(**link));
+        let Some(&link) = bodies.max_by(|a, b| heavier(a, b)) else { continue };
+        note(link, if weight(&link) > MIN_VALUE { NO_INERTIA } else { NO_MASS });
+        masses[link].get_or_insert_default().raise();
+    }
+    let elements = masses.into_iter().map(|mass| mass.map(Mass::element));
+    (elements.collect(), balanced)
 }
