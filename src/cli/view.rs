@@ -14,7 +14,7 @@ use super::generate_output::{FAILED, Printer, ResultFormat};
 use super::output::{self, Failure, Signals, one_line};
 use urdd_directory::discover::DiscoverError;
 use urdd_directory::file_type::FileType;
-use urdd_directory::temporary::Temporary;
+use urdd_directory::target_lock::Temporary;
 use urdd_format::escape;
 use urdd_format::readable::counted;
 use urdd_robot::Robot;

@@ -5,7 +5,10 @@ use std::f64::consts::PI;
 
 use urdd_format::bounds::BoundsModule;
 use urdd_format::chain::*;
+use urdd_format::connections::*;
+use urdd_format::dof::*;
 use urdd_format::index::*;
+use urdd_format::kinematics_samples::*;
 use urdd_format::urdf::{Joint, JointType};
 
 use super::robot::{Robot, num_dofs};

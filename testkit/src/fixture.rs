@@ -427,7 +427,7 @@ fn sealed_files(folder: &str) -> [String; 3] {
     ["VERSION", "module.json", "module.yaml"].map(|file| format!("{folder}/{file}"))
 }
 
-/// Size and SHA-256 of a file in the format of `urdd.json`. Independent of `urdd_directory::digest`, which the
+/// Size and SHA-256 of a file in the format of `urdd.json`. Independent of `urdd_directory::file_entry`, which the
 /// validator's tests check against it, and the tests of other producers.
 pub fn size_and_hash(bytes: &[u8]) -> (usize, String) {
     let digest = Sha256::digest(bytes);

@@ -7,6 +7,7 @@ use urdd_format::convex_decomposition_meshes::*;
 use urdd_format::convex_hull_meshes::ConvexHullMeshesModule;
 use urdd_format::index::{ElementIdx, LinkIdx};
 use urdd_format::meshes::{GeometryKind, MeshFiles};
+use urdd_format::original_meshes::*;
 use urdd_format::plain_meshes::{PlainMesh, PlainMeshesModule};
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::{Geometry, Link, Origin, Visual};

@@ -3,7 +3,9 @@
 
 use urdd_format::index::{Count, LinkIdx, PieceIdx};
 use urdd_format::link_shapes_approximations::*;
+use urdd_format::link_shapes_distance_statistics::*;
 use urdd_format::link_shapes_simple_skips::*;
+use urdd_format::link_shapes_skips::*;
 use urdd_format::shapes::PieceShape;
 
 use super::core::{Core, default_configuration, link_transforms, sampled_configuration};

@@ -116,7 +116,9 @@ fn each_format_of_imports_is_tested() {
         let tests = [format!("{name}.rs"), format!("{name}/mod.rs")]
             .map(|file| room.join("tests").join(file));
         assert!(tests.iter().any(|file| file.exists()), "no unit tests of {name}");
-        for file in [format!("tests/figures/imports/{name}.py"), format!("fuzz/{name}.rs")] {
+        for file in
+            [format!("tests/figures/imports/{name}.py"), format!("fuzz/fuzz_targets/{name}.rs")]
+        {
             assert!(repository().join(&file).exists(), "no {file}");
         }
     }

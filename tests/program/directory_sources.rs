@@ -10,10 +10,10 @@ use std::sync::Arc;
 
 use serde_json::Value;
 use testkit::files;
-use urdd_directory::digest;
+use urdd_directory::file_entry;
 use urdd_directory::listing::EntryKind;
-use urdd_directory::read_error::ReadError;
-use urdd_directory::read_error::{ArchiveFault, EntryFault};
+use urdd_directory::listing::ReadError;
+use urdd_directory::listing::{ArchiveFault, EntryFault};
 use urdd_directory::root::Root;
 use urdd_directory::source::{Archive, Disk, Memory};
 use zip::ZipWriter;
@@ -138,7 +138,7 @@ fn sources_list_and_read_alike() {
         assert!(root.sibling("rover").is_none());
         for (path, bytes) in &urdd_files {
             assert_eq!(&root.read(path, u64::MAX >> 1).expect("a file"), bytes);
-            assert_eq!(digest::of(root, path), digest::of(&disk, path));
+            assert_eq!(file_entry::of(root, path), file_entry::of(&disk, path));
         }
         assert_eq!(root.read("none", 10), Err(ReadError::Missing));
         assert_eq!(root.read("urdd.json/x", 10), Err(ReadError::Missing));

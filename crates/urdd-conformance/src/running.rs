@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 use crate::data::Damage;
 use crate::tree::{TreeError, make_folder};
 use urdd_directory::cancellation::Cancelled;
-use urdd_directory::temporary::Temporary;
+use urdd_directory::target_lock::Temporary;
 use urdd_generate::GenerateError;
 
 pub(crate) type Result<T, E = RunError> = std::result::Result<T, E>;

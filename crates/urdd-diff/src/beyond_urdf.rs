@@ -5,7 +5,7 @@
 use std::collections::HashMap;
 
 use toml::{Table, Value};
-use urdd_directory::account::{Account, Overdrawn};
+use urdd_directory::limits::{Account, Overdrawn};
 use urdd_format::diff_report::PartDifference;
 use urdd_format::report::Kind;
 use urdd_source::beside::Companion;

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use urdd_directory::account::Account;
 use urdd_directory::discover::{Found, discover};
-use urdd_directory::layout::setup_beside;
+use urdd_directory::file_type::setup_beside;
+use urdd_directory::limits::Account;
 use urdd_directory::limits::MAX_TOML_BYTES;
 use urdd_directory::path;
 use urdd_directory::regular;

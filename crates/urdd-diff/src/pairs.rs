@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use nalgebra::{Matrix3, Vector3};
-use urdd_directory::account::{Account, Overdrawn};
+use urdd_directory::limits::{Account, Overdrawn};
 use urdd_document::tree::Tree;
 use urdd_format::diff_report::{PairChange, PairDifference, PoseDifference};
 use urdd_robot::{Robot, ShapeKind};

@@ -1,9 +1,9 @@
 //! One of the two robots, opened, and its degrees of freedom: as its modules state them, and as they follow from its joints.
 
 use thiserror::Error;
-use urdd_directory::account::Account;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::DiscoverError;
+use urdd_directory::limits::Account;
 use urdd_directory::loops_toml::File;
 use urdd_document::dof_layout::{DofLayout, bounds_without_limits, describe};
 use urdd_document::pose::has_quaternions;

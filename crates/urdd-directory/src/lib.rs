@@ -28,14 +28,3 @@ pub mod take;
 pub mod target_lock;
 pub mod writer;
 pub mod yaml;
-
-// Parts of these, by names of their own.
-pub use discover as carried;
-pub use file_entry as digest;
-pub use file_type::{self as layout, self as robot_file};
-pub use limits as account;
-pub use listing as read_error;
-pub use metadata as replacement;
-pub use position as text_fault;
-pub use target_lock as temporary;
-pub use writer as document;

@@ -14,8 +14,8 @@ use crate::module::{
 use crate::schema_check::{self, SchemaViolation};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::{MAX_DOCUMENT_BYTES, MAX_VERSION_BYTES};
+use urdd_directory::position::TextFaults;
 use urdd_directory::root::{EntryKind, Listing, ReadError, Root};
-use urdd_directory::text_fault::TextFaults;
 use urdd_directory::yaml;
 use urdd_format::registry::{self, ModuleDocument, ModuleKind, ModuleSpec, Profile};
 use urdd_format::root_metadata::{RootMetadata, Version};

@@ -9,8 +9,8 @@ use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::json::{self, JsonDocument};
 use urdd_directory::limits::MAX_URDF_BYTES;
 use urdd_directory::position;
+use urdd_directory::position::TextFaults;
 use urdd_directory::root::{EntryKind, Listing, ReadError, Root};
-use urdd_directory::text_fault::TextFaults;
 use urdd_format::registry::{ModuleDocument, ModuleKind, ModuleSpec, Profile};
 use urdd_format::root_metadata::{RootMetadata, Source};
 

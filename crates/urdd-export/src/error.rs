@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::{Format, Shapes};
-use urdd_directory::account::Overdrawn;
+use urdd_directory::limits::Overdrawn;
 use urdd_directory::range::OutOfRange;
 use urdd_format::nearest::nearest;
 use urdd_format::urdf::JointType;

@@ -10,7 +10,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use crate::Layout;
-use urdd_directory::account::{Account, Overdrawn};
+use urdd_directory::limits::{Account, Overdrawn};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_robot::Skips;

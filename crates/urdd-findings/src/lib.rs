@@ -15,13 +15,6 @@ pub mod run;
 pub mod settings;
 pub mod settings_file;
 
-// Rooms of these are parts of others.
-pub use check as examined;
-pub use part as skip;
-pub use places as cause;
-pub use report::programs;
-pub use settings_file as robots;
-
 /// The rules to report.
 pub mod selection {
     pub use crate::settings::{Codes, Selection, UnknownCodes};

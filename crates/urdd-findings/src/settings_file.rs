@@ -12,11 +12,11 @@ use super::settings::{
     Exclude, Ignore, MAX_VARIANTS, RobotError, Settings, SettingsError, matcher, parse_class,
     parse_code, parse_program, parse_severity,
 };
-use urdd_directory::account::Account;
 use urdd_directory::file_type::stem;
+use urdd_directory::limits::Account;
 use urdd_directory::limits::MAX_TOML_BYTES;
+use urdd_directory::listing::ReadError;
 use urdd_directory::position::{Position, position};
-use urdd_directory::read_error::ReadError;
 use urdd_directory::regular;
 use urdd_format::escape;
 

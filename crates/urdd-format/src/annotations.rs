@@ -1,15 +1,14 @@
-//! Annotations of schemas (SPEC 11.3 to 11.6): the unit, the frame, what an index counts, how long a list is. A first
-//! extension that has them, for its author to change: a schema with annotations, and a document that fits it.
+//! Annotations of schemas (SPEC 11.3 to 11.6): the unit, the frame, what an index counts, how long a list is.
 
 use std::collections::BTreeSet;
 use std::fmt;
 
 use schemars::Schema;
 use schemars::transform::Transform;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
-use crate::escape;
-use crate::word::nearest;
+use super::escape;
+use super::nearest::nearest;
 
 /// The unit of every number in the value.
 pub const UNIT: &str = "x-unit";
@@ -166,9 +165,7 @@ fn fault(keyword: &str, value: &Value, kind: Option<&Value>) -> Option<String> {
         _ => of_length(text).is_some(),
     };
     if !is_known {
-        // Symbols of units are so short that every word is near one.
-        let mut words_of = text.split(OR).filter(|_| keyword != UNIT);
-        let near = words_of.find_map(|word| nearest(words(keyword).into_iter(), word));
+        let near = text.split(OR).find_map(|word| near(keyword, word));
         let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
         return Some(format!(
             "is `{}`, which is not defined: {near}{}",
@@ -205,6 +202,14 @@ fn words(keyword: &str) -> Vec<&'static str> {
         FRAME => FRAMES.to_vec(),
         INDEX => THINGS.iter().map(|thing| thing.1).collect(),
         _ => THINGS.iter().filter_map(|thing| thing.2).collect(),
+    }
+}
+
+fn near(keyword: &str, word: &str) -> Option<String> {
+    match keyword {
+        // Symbols are so short that every word is near one.
+        UNIT => None,
+        _ => nearest(words(keyword).into_iter(), word),
     }
 }
 
@@ -277,59 +282,4 @@ pub fn sentence(schema: &Value) -> String {
         (!lengths.is_empty()).then(|| format!("Length: `{}`.", lengths.join("`, each `"))),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
-}
-
-/// The files of an extension, but `VERSION`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NewExtension {
-    /// `schema.json`.
-    pub schema: Value,
-    /// `module.json`.
-    pub document: Value,
-}
-
-/// Version of a new extension.
-pub const VERSION: &str = "1.0.0";
-
-/// The extension of a module folder such as `x_acme_gripper_module`. Its list over joints has a value for each of
-/// `joints`, and is null where their number is not known.
-pub fn new_extension(folder: &str, joints: Option<usize>) -> NewExtension {
-    let schema = json!({
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": folder,
-        "description": "What the extension is about, and who needs it.",
-        "type": "object",
-        "properties": {
-            "link_idx": {
-                "description": "The link that the tool is mounted on.",
-                "x-index": "link",
-                "type": "integer",
-                "minimum": 0,
-            },
-            "tool_point": {
-                "description": "Where the tool works: x, y, z.",
-                "x-unit": "m",
-                "x-frame": "link",
-                "type": "array",
-                "items": { "type": "number" },
-                "minItems": 3,
-                "maxItems": 3,
-            },
-            "joint_stiffness": {
-                "description": "For each joint, its stiffness; null where it is not known.",
-                "x-unit": "N*m/rad or N/m",
-                "x-length": "joints",
-                "type": ["array", "null"],
-                "items": { "type": ["number", "null"], "minimum": 0 },
-            },
-        },
-        "required": ["link_idx", "tool_point", "joint_stiffness"],
-        "additionalProperties": false,
-    });
-    let document = json!({
-        "link_idx": 0,
-        "tool_point": [0.0, 0.0, 0.1],
-        "joint_stiffness": joints.map(|joints| vec![Value::Null; joints]),
-    });
-    NewExtension { schema, document }
 }

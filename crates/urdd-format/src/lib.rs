@@ -26,20 +26,38 @@ pub mod bundle;
 #[doc(hidden)]
 pub mod carried;
 pub mod chain;
+#[doc(hidden)]
+pub mod colors;
 pub mod composition;
 pub mod conformance;
+pub mod connections;
+pub mod convex_decomposition_meshes;
+pub mod convex_hull_meshes;
 pub mod diff_report;
+pub mod dof;
 #[doc(hidden)]
 pub mod escape;
+#[doc(hidden)]
+pub mod hexadecimal;
 pub mod index;
+pub mod kinematics_samples;
 pub mod legacy;
 pub mod link_shapes_approximations;
+pub mod link_shapes_distance_statistics;
+pub mod link_shapes_simple_skips;
 pub mod link_shapes_skips;
 pub mod link_shapes_spheres;
 pub mod loops;
 pub mod meshes;
 pub mod named_configurations;
+#[doc(hidden)]
+pub mod nearest;
+#[doc(hidden)]
+pub mod new_extension;
 pub mod object;
+pub mod original_meshes;
+pub mod plain_meshes;
+pub mod pose;
 pub mod rate;
 #[doc(hidden)]
 pub mod readable;
@@ -50,25 +68,10 @@ pub mod root_metadata;
 pub mod schema;
 pub mod self_collision_model;
 pub mod shape_kind;
+pub mod shapes;
+#[doc(hidden)]
+pub mod short;
+pub mod skips;
 mod types;
 pub mod urdf;
 pub mod word;
-
-// Parts of these, by names of their own.
-#[doc(hidden)]
-pub use annotations as new_extension;
-pub use chain::{self as connections, self as dof, self as kinematics_samples, self as pose};
-#[doc(hidden)]
-pub use escape as short;
-pub use link_shapes_approximations::{self as link_shapes_distance_statistics, self as shapes};
-pub use link_shapes_skips::{self as link_shapes_simple_skips, self as skips};
-pub use meshes::{
-    self as convex_decomposition_meshes, self as convex_hull_meshes, self as original_meshes,
-    self as plain_meshes,
-};
-#[doc(hidden)]
-pub use readable as hexadecimal;
-#[doc(hidden)]
-pub use urdf as colors;
-#[doc(hidden)]
-pub use word as nearest;

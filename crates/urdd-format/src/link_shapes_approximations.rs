@@ -1,20 +1,7 @@
-//! `link_shapes_approximations_module`: oriented bounding boxes and bounding spheres of links and pieces.
+//! `link_shapes_approximations_module`: oriented bounding boxes and bounding spheres of links and pieces, and
 //! `link_shapes_max_distance_from_origin_module`: maximum distance of shapes from their link's origin.
-//! `link_shapes_distance_statistics_module`: sampled distances between pairs of shapes. Shape indices, shared by the link
-//! shape modules.
 
-use crate::index::{Count, LinkIdx, PieceIdx};
-use crate::types::{module, types};
-
-types! {
-    /// A convex piece of a link.
-    pub struct PieceShape {
-        /// The link.
-        pub link_idx: LinkIdx,
-        /// The piece, as in `link_pieces` of `convex_decomposition_meshes_module`.
-        pub piece_idx: PieceIdx,
-    }
-}
+use super::types::module;
 
 module! {
     /// Oriented bounding boxes (OBBs) and bounding spheres of each link and of each convex piece, in
@@ -64,40 +51,5 @@ module! {
         pub decomposition_obbs_maximum_distances: Vec<Vec<f64>> where { unit: "m", length: "links, pieces" },
         /// For each link, of the sphere of each convex piece.
         pub decomposition_bounding_spheres_maximum_distances: Vec<Vec<f64>> where { unit: "m", length: "links, pieces" },
-    }
-}
-
-module! {
-    /// Mean, smallest and largest distance of each pair of shapes over the specification's sampled
-    /// configurations, metres. A distance is 0 where the shapes touch or overlap.
-    pub struct LinkShapesDistanceStatisticsModule {
-        /// Number of sampled configurations, from the first of the specification's sequence.
-        pub num_samples: Count,
-        /// What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
-        pub full_shapes: Vec<LinkIdx> where { length: "full_shapes" },
-        /// What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order.
-        pub decomposition_shapes: Vec<PieceShape> where { length: "decomposition_shapes" },
-        /// Between the links' convex hulls.
-        pub full_convex_hulls: DistanceStatistics,
-        /// Between the links' boxes.
-        pub full_obbs: DistanceStatistics,
-        /// Between the links' spheres.
-        pub full_bounding_spheres: DistanceStatistics,
-        /// Between convex pieces; null above 500 pieces, unless asked for.
-        pub decomposition_convex_hulls: Option<DistanceStatistics>,
-        /// Between the boxes of convex pieces; null above 500 pieces, unless asked for.
-        pub decomposition_obbs: Option<DistanceStatistics>,
-        /// Between the spheres of convex pieces; null above 500 pieces, unless asked for.
-        pub decomposition_bounding_spheres: Option<DistanceStatistics>,
-    }
-
-    /// Square symmetric matrices over one list of shapes, metres.
-    pub struct DistanceStatistics {
-        /// Mean distance of each pair.
-        pub mean_distances: Vec<Vec<f64>> where { unit: "m", square: "full_shapes or decomposition_shapes" },
-        /// Smallest distance of each pair.
-        pub min_distances: Vec<Vec<f64>> where { unit: "m", square: "full_shapes or decomposition_shapes" },
-        /// Largest distance of each pair.
-        pub max_distances: Vec<Vec<f64>> where { unit: "m", square: "full_shapes or decomposition_shapes" },
     }
 }

@@ -1,7 +1,7 @@
 //! `loops_module`: what closes the kinematic loops of a robot that is no tree. Since version 1.1 of the specification.
 
-use super::chain::Pose;
 use super::index::{DofIdx, LinkIdx, SampleIdx};
+use super::pose::Pose;
 use super::types::module;
 
 module! {

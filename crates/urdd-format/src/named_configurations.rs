@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::bounds::BoundsModule;
-use super::chain::DofModule;
+use super::dof::DofModule;
 use super::object::pattern;
 use super::types::{module, types};
 

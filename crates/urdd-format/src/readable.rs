@@ -1,6 +1,6 @@
-//! Numbers, counts and lists formatted for people, the same in every message and report. Hexadecimal text of bytes.
+//! Numbers, counts and lists formatted for people, the same in every message and report.
 
-use std::fmt::{Display, Write};
+use std::fmt::Display;
 
 /// Rounds to `digits` significant digits, but keeps all digits before the decimal point. Omits trailing zeros.
 /// Uses an exponent only below 1e-3 and from 1e6.
@@ -60,12 +60,4 @@ pub fn first_of(names: impl ExactSizeIterator<Item: Display>, most: usize) -> St
 
 fn trimmed(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
-}
-
-/// Bytes as lower-case hexadecimal digits.
-pub fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |mut text, byte| {
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
 }

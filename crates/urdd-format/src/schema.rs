@@ -12,11 +12,11 @@ use super::conformance::{
     PRODUCER_RESULT_VERSION, ProducerResult, VALIDATOR_RESULT_VERSION, ValidatorResult,
 };
 use super::diff_report::{DIFF_REPORT_VERSION, DiffReport};
-use super::readable::hexadecimal;
+use super::hexadecimal::hexadecimal;
+use super::nearest::nearest;
 use super::registry::{ModuleSpec, Profile, modules};
 use super::report::{REPORT_VERSION, Report};
 use super::root_metadata::RootMetadata;
-use super::word::nearest;
 
 /// The earlier versions of the report of differences, each with the lists that the one after it has more.
 pub const EARLIER_DIFF_REPORTS: [(&str, &[&str]); 3] =

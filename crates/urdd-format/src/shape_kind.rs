@@ -6,10 +6,11 @@ use std::str::FromStr;
 use thiserror::Error;
 
 use super::legacy::shapes as legacy;
-use super::link_shapes_approximations::{DistanceStatistics, LinkShapesDistanceStatisticsModule};
-use super::link_shapes_skips::{
-    LinkShapesSimpleSkipsModule, LinkShapesSkipsModule, SkipReason, SkipReasons,
+use super::link_shapes_distance_statistics::{
+    DistanceStatistics, LinkShapesDistanceStatisticsModule,
 };
+use super::link_shapes_simple_skips::{LinkShapesSimpleSkipsModule, SkipReason, SkipReasons};
+use super::link_shapes_skips::LinkShapesSkipsModule;
 use super::registry::ModuleKind;
 
 /// The kinds, in the order of the specification (8.1), each with its name.

@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::donor::edits::Decisions;
 use crate::error::ReferenceFault;
-use urdd_directory::layout::setup_beside;
+use urdd_directory::file_type::setup_beside;
 use urdd_directory::outputs::{self, Output, OutputError, Target};
 use urdd_format::bounds::BoundsModule;
 use urdd_format::composition::CompositionModule;

@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::error::{GenerateError, Result};
-use urdd_directory::document::{Document, Member, Rows};
+use urdd_directory::writer::{Document, Member, Rows};
 use urdd_format::link_shapes_distance_statistics::{
     DistanceStatistics, LinkShapesDistanceStatisticsModule as StatisticsModule,
 };

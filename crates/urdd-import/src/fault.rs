@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use thiserror::Error;
-use urdd_directory::account::Overdrawn;
-use urdd_directory::read_error::ReadError;
+use urdd_directory::limits::Overdrawn;
+use urdd_directory::listing::ReadError;
 use urdd_format::short::Short;
 use urdd_source::NotFound;
 use urdd_source::gate::ImageFault;

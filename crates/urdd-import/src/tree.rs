@@ -4,7 +4,7 @@
 use std::collections::{HashMap, HashSet};
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use urdd_directory::account::{Account, Charged, Cost, Overdrawn};
+use urdd_directory::limits::{Account, Charged, Cost, Overdrawn};
 use urdd_source::ImportOptions;
 use urdd_xml::number::numbers;
 

@@ -4,8 +4,8 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use urdd_directory::account::{Account, Overdrawn};
 use urdd_directory::export_toml::{ActuatorKind, File, JointGains, unplaced};
+use urdd_directory::limits::{Account, Overdrawn};
 use urdd_directory::loops_toml::{self, CouplingTable, LoopTable};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};

@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use urdd_directory::position::LineIndex;
+use urdd_findings::check::Examined;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
-use urdd_findings::examined::Examined;
 use urdd_findings::finding::{Finding, Findings};
+use urdd_findings::part::SkipReason;
 use urdd_findings::selection::Codes;
-use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, StaleIgnore};
 use urdd_programs::Fault;

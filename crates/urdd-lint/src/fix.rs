@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use thiserror::Error;
+use urdd_directory::listing::ReadError;
 use urdd_directory::position::{LineIndex, Position};
-use urdd_directory::read_error::ReadError;
 use urdd_directory::regular;
 use urdd_findings::finding::Finding;
 use urdd_format::index::Count;

@@ -34,7 +34,7 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use urdd_directory::cancellation::Cancelled;
-use urdd_findings::examined::Examined;
+use urdd_findings::check::Examined;
 use urdd_findings::run::Run;
 use urdd_format::index::Count;
 use urdd_format::report::{ImportedFrom, ImportedPart, Kind, StaleIgnore, WrittenAt};

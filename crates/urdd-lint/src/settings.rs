@@ -5,12 +5,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use urdd_findings::baseline::Baseline;
+use urdd_findings::check::Examined;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
-use urdd_findings::examined::Examined;
+use urdd_findings::part::SkipReason;
 use urdd_findings::settings::Settings;
 use urdd_findings::settings_file::SettingsFile;
-use urdd_findings::skip::SkipReason;
 use urdd_source::fault::Fault;
 use urdd_source::{Declared, SourceError};
 
@@ -29,7 +29,7 @@ pub struct LintSettings {
 
 /// The robots that a settings file declares.
 pub fn declared(file: &SettingsFile) -> Vec<Declared> {
-    let one = |robot: &urdd_findings::robots::DeclaredRobot| Declared {
+    let one = |robot: &urdd_findings::settings_file::DeclaredRobot| Declared {
         source: robot.file.clone(),
         name: robot.name.clone(),
         arguments: robot.arguments.clone(),

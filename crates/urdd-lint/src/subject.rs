@@ -11,7 +11,7 @@ use urdd_document::robot::{Robot, of_urdf};
 use urdd_findings::code::Code;
 use urdd_findings::finding::{Finding, Findings};
 use urdd_findings::part::Part;
-use urdd_findings::skip::SkipReason;
+use urdd_findings::part::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::report::{Fix, TextEdit};
 use urdd_format::short;

@@ -6,12 +6,12 @@ use std::hash::Hash;
 use std::str::FromStr;
 
 use urdd_directory::position::{LineIndex, Position};
-use urdd_findings::cause::at;
 use urdd_findings::check::{Check, FollowsFrom, Outcome};
 use urdd_findings::code::Code;
+use urdd_findings::part::SkipReason;
+use urdd_findings::places::at;
 use urdd_findings::places::retain;
 use urdd_findings::selection::Codes;
-use urdd_findings::skip::SkipReason;
 use urdd_format::report::{Place, StaleIgnore};
 use urdd_xml::element::{Edit, apply};
 use urdd_xml::{Document, Node};

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use urdd_directory::position::Position;
-use urdd_findings::cause::at;
 use urdd_findings::check::Check;
 use urdd_findings::finding::Finding;
+use urdd_findings::places::at;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, ProgramResult, WrittenAt};
 use urdd_source::Trail;

@@ -10,8 +10,8 @@ use lsp_types::{
     DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString, OneOf,
     OptionalVersionedTextDocumentIdentifier, Position, TextDocumentEdit, TextEdit, WorkspaceEdit,
 };
+use urdd_findings::check::Examined;
 use urdd_findings::check::{Check, Outcome};
-use urdd_findings::examined::Examined;
 use urdd_findings::finding::Finding;
 use urdd_format::escape;
 use urdd_format::index::Count;

@@ -9,7 +9,7 @@ use crate::diagnostics::{Found, at_the_top, further, line_of};
 use crate::document::Snapshot;
 use urdd_directory::cancellation::Cancellation;
 use urdd_findings::baseline::Baseline;
-use urdd_findings::examined::Examined;
+use urdd_findings::check::Examined;
 use urdd_findings::settings_file::{SettingsFile, SettingsFileError, nearest};
 use urdd_lint::{LintSettings, declared, seen_from};
 use urdd_source::robots_of;

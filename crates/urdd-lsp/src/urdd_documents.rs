@@ -7,7 +7,7 @@ use lsp_types::{Diagnostic, DiagnosticSeverity, Hover, Position};
 use serde_json::Value;
 use urdd_directory::json_scan::pointer_at;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::text_fault::{TextFault, TextFaultKind, TextFaults};
+use urdd_directory::position::{TextFault, TextFaultKind, TextFaults};
 use urdd_directory::yaml::{self as mirror, places};
 use urdd_directory::{json, position, regular};
 use urdd_document::schema_check::SchemaViolation;

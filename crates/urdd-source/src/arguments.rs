@@ -6,10 +6,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
-use urdd_directory::account::{Account, Overdrawn};
 use urdd_directory::limits::MAX_MANIFEST_BYTES;
+use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::listing::ReadError;
 use urdd_directory::position::{LineIndex, Position};
-use urdd_directory::read_error::ReadError;
 use urdd_xml::Node;
 use urdd_xml::element::{attribute, name};
 

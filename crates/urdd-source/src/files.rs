@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 use urdd_directory::limits::{MAX_SET_BYTES, MAX_SET_FILES};
-use urdd_directory::read_error::ReadError;
+use urdd_directory::listing::ReadError;
 use urdd_directory::regular;
 use urdd_directory::root::Root;
 use urdd_directory::source::{Memory, OpenFile, Source};

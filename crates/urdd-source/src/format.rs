@@ -4,16 +4,16 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use urdd_directory::account::Account;
 use urdd_directory::file_type::FileType;
+use urdd_directory::file_type::HEAD;
+use urdd_directory::limits::Account;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::robot_file::HEAD;
 use urdd_usd::{Door, outline};
 use urdd_xml::{Mended, parse_leniently};
 
 use crate::files::{Files, MAX_SOURCE_BYTES};
 
-pub use urdd_directory::robot_file::{Format, RobotFile};
+pub use urdd_directory::file_type::{Format, RobotFile};
 
 /// What a file is, by its content, or by its name where that does not say.
 pub fn robot_file(path: &Path, files: &Files) -> Option<RobotFile> {

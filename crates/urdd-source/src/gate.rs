@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use thiserror::Error;
-use urdd_directory::account::{Account, Overdrawn};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::read_error::ReadError;
+use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::listing::ReadError;
 
 use crate::files::{Files, is_broad};
 use crate::inspect::{Inspected, inspect, is_image};

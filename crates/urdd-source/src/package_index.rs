@@ -7,7 +7,7 @@ use std::process::Command;
 use std::{fs, io};
 
 use urdd_directory::outputs;
-use urdd_directory::temporary::Temporary;
+use urdd_directory::target_lock::Temporary;
 
 use crate::files::Files;
 use crate::installed::{self, Installed};

@@ -16,8 +16,8 @@ use std::time::Duration;
 use serde::Deserialize;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_directory::file_type::FileType;
-use urdd_directory::read_error::ReadError;
-use urdd_directory::temporary::Temporary;
+use urdd_directory::listing::ReadError;
+use urdd_directory::target_lock::Temporary;
 use urdd_directory::{outputs, regular};
 use urdd_format::escape;
 

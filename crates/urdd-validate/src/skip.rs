@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use urdd_findings::skip::SkipReason;
+use urdd_findings::part::SkipReason;
 use urdd_format::registry::ModuleKind;
 
 /// A reason whose words are known.

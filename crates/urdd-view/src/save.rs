@@ -14,7 +14,7 @@ use crate::shown::{Making, Shown};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::replacement::{Files, Replacement};
+use urdd_directory::metadata::{Files, Replacement};
 use urdd_directory::root::Root;
 use urdd_directory::staging::Staging;
 use urdd_directory::take::take_content;

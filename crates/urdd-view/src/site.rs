@@ -29,7 +29,7 @@ use urdd_directory::limits::MAX_FILE_BYTES;
 use urdd_directory::root::{EntryKind, ReadError};
 use urdd_directory::staging::{Staging, StagingError};
 use urdd_directory::writer::Writer;
-use urdd_directory::{digest, regular};
+use urdd_directory::{file_entry, regular};
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::readable::first_of;
 use urdd_format::registry::PROGRAM_VERSION;
@@ -242,7 +242,7 @@ fn hash_of(path: &Path) -> io::Result<String> {
     if !fs::symlink_metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a regular file"));
     }
-    Ok(digest::of_reader(File::open(path)?)?.1)
+    Ok(file_entry::of_reader(File::open(path)?)?.1)
 }
 
 fn unwritten(path: &Path, error: io::Error) -> ExportError {

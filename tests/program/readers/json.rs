@@ -1,7 +1,7 @@
 //! The JSON reader, against `serde_json`.
 
 use serde_json::Value;
-use urdd_directory::text_fault::TextFaultKind as Kind;
+use urdd_directory::position::TextFaultKind as Kind;
 use urdd_directory::{canonical, json, json_scan};
 
 use super::text::{check_faults, leaves};

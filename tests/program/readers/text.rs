@@ -1,7 +1,7 @@
 //! Properties of the faults of every text.
 
 use serde_json::Value;
-use urdd_directory::text_fault::TextFaults;
+use urdd_directory::position::TextFaults;
 
 /// Every fault has a message, and a location within the text.
 pub fn check_faults(faults: &TextFaults, bytes: &[u8]) {

@@ -1,7 +1,7 @@
 //! The YAML mirror, against `serde_yaml`.
 
 use serde_json::Value;
-use urdd_directory::text_fault::TextFaultKind as Kind;
+use urdd_directory::position::TextFaultKind as Kind;
 use urdd_directory::yaml::{check_mirror, is_canonical};
 use urdd_directory::{canonical, json};
 

@@ -7,7 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 use urdd_conformance::change::{Change, mirror_of, rehash, text_of};
 use urdd_conformance::tree::{FilePath, Node, Tree};
-use urdd_directory::{canonical, digest, file_entry, json as json_text};
+use urdd_directory::{canonical, file_entry, json as json_text};
 
 use testkit::fixture::ROOT;
 
@@ -134,7 +134,7 @@ fn mark_right(tree: &Tree, metadata: &mut Value) {
 /// Whether an entry matches its file; `None` if the file does not exist.
 fn is_right(tree: &Tree, entry: &Value) -> Option<bool> {
     let bytes = tree.file(entry["path"].as_str()?)?;
-    let (size, sha256) = digest::of_bytes(bytes);
+    let (size, sha256) = file_entry::of_bytes(bytes);
     Some(entry["size"] == json!(size) && entry["sha256"] == json!(sha256))
 }
 

@@ -1,6 +1,6 @@
 //! The account of what may be made of what was read.
 
-use urdd_directory::account::{ALLOWANCE, Account, Charged, Cost, MULTIPLE, Overdrawn};
+use urdd_directory::limits::{ALLOWANCE, Account, Charged, Cost, MULTIPLE, Overdrawn};
 
 struct Bytes(usize);
 

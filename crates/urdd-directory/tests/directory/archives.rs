@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use urdd_directory::limits::MAX_ARCHIVE_BYTES;
 use urdd_directory::listing::EntryKind;
-use urdd_directory::read_error::ReadError;
-use urdd_directory::read_error::{ArchiveFault, EntryFault};
+use urdd_directory::listing::ReadError;
+use urdd_directory::listing::{ArchiveFault, EntryFault};
 use urdd_directory::root::Root;
 use urdd_directory::source::Archive;
 

@@ -1,6 +1,6 @@
 //! Sizes and hashes of files, and comparison with stated values, in bounded memory.
 
-use urdd_directory::digest::*;
+use urdd_directory::file_entry::*;
 use urdd_directory::root::Root;
 
 fn sha256(bytes: &[u8]) -> String {

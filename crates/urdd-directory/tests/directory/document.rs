@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 use urdd_directory::canonical;
-use urdd_directory::document::*;
+use urdd_directory::writer::*;
 
 #[test]
 fn row_by_row_is_as_the_whole() {

@@ -3,7 +3,7 @@
 use serde_json::Value;
 use urdd_directory::json::*;
 use urdd_directory::limits::DEPTH_LIMIT;
-use urdd_directory::text_fault::{TextFault, TextFaultKind};
+use urdd_directory::position::{TextFault, TextFaultKind};
 
 fn only_fault(bytes: &[u8]) -> TextFault {
     let error = read(bytes).expect_err("unreadable");

@@ -1,6 +1,6 @@
 //! Reserved file and folder names.
 
-use urdd_directory::layout::*;
+use urdd_directory::file_type::*;
 
 #[test]
 fn staging_folders_are_known_by_name() {

@@ -8,7 +8,7 @@ use std::thread;
 use std::time::Duration;
 
 use urdd_directory::listing::Listing;
-use urdd_directory::read_error::ReadError;
+use urdd_directory::listing::ReadError;
 use urdd_directory::regular;
 use urdd_directory::root::Root;
 use urdd_directory::source::{OpenFile, Source};

@@ -4,7 +4,7 @@
 use std::fs;
 use std::os::unix::fs::symlink;
 
-use urdd_directory::read_error::ReadError;
+use urdd_directory::listing::ReadError;
 use urdd_directory::root::Root;
 
 #[test]

@@ -1,7 +1,7 @@
 //! A virtual tree of folders, files and links.
 
 use urdd_directory::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
-use urdd_directory::read_error::ReadError;
+use urdd_directory::listing::ReadError;
 use urdd_directory::source::{Item, Node, Tree};
 
 fn tree(paths: &[&str]) -> Result<Tree<()>, String> {

@@ -2,7 +2,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use urdd_directory::target_lock::TargetLock;
-use urdd_directory::temporary::Temporary;
+use urdd_directory::target_lock::Temporary;
 
 #[test]
 fn what_is_left_goes_with_the_next_and_what_is_used_stays() {

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use serde_json::{Map, Value, json};
-use urdd_directory::text_fault::TextFaultKind as Kind;
+use urdd_directory::position::TextFaultKind as Kind;
 use urdd_directory::yaml::{check_mirror, is_canonical};
 use urdd_directory::{canonical, json, position};
 

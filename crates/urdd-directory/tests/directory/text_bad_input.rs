@@ -1,7 +1,7 @@
 //! YAML files that no honest producer writes.
 
 use serde_json::{Value, json};
-use urdd_directory::text_fault::{TextFaultKind as Kind, TextFaults};
+use urdd_directory::position::{TextFaultKind as Kind, TextFaults};
 use urdd_directory::yaml::check_mirror;
 
 fn faults_of(yaml: &str, json: Value) -> TextFaults {

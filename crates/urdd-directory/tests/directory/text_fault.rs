@@ -1,6 +1,6 @@
 //! Faults in the text of a JSON or YAML file, independent of its content.
 
-use urdd_directory::text_fault::*;
+use urdd_directory::position::*;
 
 #[test]
 fn keeps_the_first_of_each_kind_and_counts_all() {

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use urdd_directory::canonical;
-use urdd_directory::text_fault::{KEPT_PER_KIND, TextFault, TextFaultKind as Kind, TextFaults};
+use urdd_directory::position::{KEPT_PER_KIND, TextFault, TextFaultKind as Kind, TextFaults};
 use urdd_directory::yaml::check_mirror;
 use urdd_directory::yaml::scalar::{Reading, classify};
 

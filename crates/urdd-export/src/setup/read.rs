@@ -12,7 +12,7 @@ use super::{
 use crate::Structure;
 use crate::error::unknown;
 use urdd_directory::export_toml::{EndEffectorTable, File, GroupTable, JointGains, Name};
-use urdd_directory::layout::setup_beside;
+use urdd_directory::file_type::setup_beside;
 use urdd_directory::limits::MAX_TOML_BYTES;
 use urdd_directory::position::LineIndex;
 use urdd_directory::range::Range;

@@ -9,11 +9,10 @@
 //! `link_shapes_max_distance_from_origin_module` 0.0.3 has the structure of version 1.0.0.
 
 pub mod composition;
+pub mod kinematics;
+pub mod meshes;
 pub mod shapes;
 pub mod urdf;
-
-pub use shapes as meshes;
-pub use urdf as kinematics;
 
 use crate::types::module;
 

@@ -30,7 +30,7 @@ use part::Meshes;
 use rewrite::{Rewrite, Rewritten};
 use sources::SourceKind;
 use urdd_directory::cancellation::Cancelled;
-use urdd_directory::temporary::Temporary;
+use urdd_directory::target_lock::Temporary;
 use urdd_format::composition::CompositionModule;
 use urdd_format::registry::ModuleKind;
 use urdd_source::note::NoteKind;

@@ -35,7 +35,7 @@ use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;
 use urdd_directory::staging::StagingError;
 use urdd_directory::take::take;
-use urdd_directory::{digest, file_entry, json, outputs};
+use urdd_directory::{file_entry, json, outputs};
 use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::{FileEntry, ModuleEntry, RootMetadata};
 
@@ -103,7 +103,7 @@ impl Donor {
 
     /// Whether a file matches its entry in the metadata.
     pub fn is_intact(&self, file: &FileEntry) -> bool {
-        digest::of(&self.root, &file.path).is_ok_and(|(size, sha256)| {
+        file_entry::of(&self.root, &file.path).is_ok_and(|(size, sha256)| {
             size == u64::from(file.size.0) && sha256 == file.sha256.as_str()
         })
     }
@@ -236,7 +236,7 @@ pub(crate) fn extensions(replaced: Option<&Donor>, root: &Path) -> Vec<Value> {
         }
         let mut module = module.clone();
         for entry in file_entry::of_module(&mut module) {
-            let found = file_entry::path(entry).and_then(|path| digest::of(&root, path).ok());
+            let found = file_entry::path(entry).and_then(|path| file_entry::of(&root, path).ok());
             if let Some((size, sha256)) = found {
                 file_entry::update(entry, size, &sha256);
             }

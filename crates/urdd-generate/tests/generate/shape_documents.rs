@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 use urdd_directory::canonical;
-use urdd_directory::document::Document;
+use urdd_directory::writer::Document;
 use urdd_format::index::{Count, LinkIdx, PieceIdx};
 use urdd_format::link_shapes_distance_statistics::{
     DistanceStatistics, LinkShapesDistanceStatisticsModule as StatisticsModule,

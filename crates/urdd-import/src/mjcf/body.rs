@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Translation3, Vector3};
-use urdd_directory::account::{Account, Charged};
+use urdd_directory::limits::{Account, Charged};
 
 use super::compiler::{Compilers, euler, pose};
 use super::geom::{Geom, between};

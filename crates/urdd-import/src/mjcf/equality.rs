@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
-use urdd_directory::account::{Account, Charged};
+use urdd_directory::limits::{Account, Charged};
 use urdd_format::loops::LoopKind;
 use urdd_format::short::Short;
 

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use nalgebra::Isometry3;
-use urdd_directory::account::{Account, Charged};
+use urdd_directory::limits::{Account, Charged};
 
 use super::moving::{Outside, closing, gearbox, moving, needs_links, say_turned};
 use super::scene::{Frames, Placeable, Scene, SdfJointKind, WORLD, snapped};

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
-use urdd_directory::account::{Account, Charged};
+use urdd_directory::limits::{Account, Charged};
 use urdd_usd::Value;
 
 use super::scene::{Scene, is_name, is_site};

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use urdd_directory::account::{Account, Charged, Overdrawn};
+use urdd_directory::limits::{Account, Charged, Overdrawn};
 use urdd_usd::{Prim, Value};
 
 use super::frames::Made;

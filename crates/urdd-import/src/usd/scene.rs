@@ -48,7 +48,7 @@ impl<'s> Scene<'s> {
     pub fn of(
         stage: &'s Stage,
         texts: &[&str],
-        account: &urdd_directory::account::Account,
+        account: &urdd_directory::limits::Account,
     ) -> Fallible<Self> {
         account.charge(PRIM * stage.prims.len()).at(Place::default())?;
         let number =

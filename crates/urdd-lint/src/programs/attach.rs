@@ -5,10 +5,10 @@ use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use urdd_directory::position::{LineIndex, Position};
-use urdd_findings::cause::at;
 use urdd_findings::check::{Check, FollowsFrom};
 use urdd_findings::code::Code;
 use urdd_findings::finding::Finding;
+use urdd_findings::places::at;
 use urdd_findings::places::parted;
 use urdd_format::report::{Place, Severity};
 use urdd_format::short::Short;

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 use urdd_findings::code::Code;
 use urdd_findings::code::Code::*;
 use urdd_findings::finding::Finding;
-use urdd_findings::programs::{kind, subject};
+use urdd_findings::report::programs::{kind, subject};
 use urdd_format::report::{Consequence, Does, Fix, ProgramResult, Severity};
 use urdd_programs::{Deed, Effect, Fault, MASSLESS, MASSLESS_WITH_OTHERS, Program};
 

@@ -3,8 +3,8 @@
 use std::fs;
 
 use super::{linted, written};
-use urdd_findings::programs::NAMES;
 use urdd_findings::report::human;
+use urdd_findings::report::programs::NAMES;
 use urdd_findings::report::style::Style;
 use urdd_format::report::{Consequence, Deed, Finding, Severity};
 use urdd_lint::{LintSettings, lint};

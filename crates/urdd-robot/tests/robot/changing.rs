@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 use std::time::{Duration, SystemTime};
 
 use testkit::files::below;
-use urdd_directory::read_error::ReadError;
+use urdd_directory::listing::ReadError;
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_generate::{Settings, generate};

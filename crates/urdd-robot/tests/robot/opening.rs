@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::{Arc, Mutex};
 
 use urdd_directory::listing::Listing;
-use urdd_directory::read_error::ReadError;
+use urdd_directory::listing::ReadError;
 use urdd_directory::source::{Disk, Memory, OpenFile, Source};
 use urdd_robot::{Queries, Robot, RobotError, ShapeKind};
 

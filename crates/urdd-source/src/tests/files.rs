@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use crate::{Files, MemoryFault, Settings, SourceError, SourceMeshes, package_name};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::limits::{MAX_SET_BYTES, MAX_SET_FILES};
-use urdd_directory::read_error::ReadError;
+use urdd_directory::listing::ReadError;
 use urdd_directory::source::Memory;
 use urdd_xml::tally;
 

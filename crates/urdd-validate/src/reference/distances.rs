@@ -11,7 +11,7 @@ use crate::views::enclosure::Fit;
 use urdd_document::shape_matrices::{Statistics, at, statistics};
 use urdd_document::shapes::{ShapeList, Shapes, Volume, approximations};
 use urdd_document::urdd::Urdd;
-use urdd_findings::skip::SkipReason;
+use urdd_findings::part::SkipReason;
 use urdd_format::registry::ModuleKind;
 use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::convex::{

@@ -13,7 +13,7 @@ use crate::solids::Solids;
 use urdd_document::shape_matrices::{at, skips};
 use urdd_document::shapes::Shapes;
 use urdd_document::urdd::Urdd;
-use urdd_findings::skip::SkipReason;
+use urdd_findings::part::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::registry::ModuleKind;
 use urdd_format::self_collision_model::{

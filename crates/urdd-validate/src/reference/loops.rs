@@ -6,7 +6,7 @@ use crate::skip;
 use crate::tolerance::{CLOSED, LEAST_SUM, POSITION_OF_REACH, reach, rotation_distance};
 use urdd_document::pose::unit_quaternion;
 use urdd_document::urdd::Urdd;
-use urdd_findings::skip::SkipReason;
+use urdd_findings::part::SkipReason;
 use urdd_format::dof::Quantity;
 use urdd_format::loops::{Coupling, Loop, LoopKind, LoopsModule};
 use urdd_format::pose::Pose;

@@ -11,7 +11,7 @@ use crate::skip;
 use urdd_document::consumer;
 use urdd_document::urdd::Urdd;
 use urdd_findings::code::Code;
-use urdd_findings::skip::SkipReason;
+use urdd_findings::part::SkipReason;
 use urdd_format::registry::Profile;
 use urdd_format::urdf::JointType;
 use urdd_geometry::convex::Motion;

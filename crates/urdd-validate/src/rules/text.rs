@@ -2,8 +2,8 @@
 
 use crate::rules::directory::versions::other_major;
 use crate::rules::prelude::*;
-use urdd_directory::text_fault::TextFaultKind::{self, *};
-use urdd_directory::text_fault::{TextFault, TextFaults};
+use urdd_directory::position::TextFaultKind::{self, *};
+use urdd_directory::position::{TextFault, TextFaults};
 use urdd_document::module::Mirror;
 use urdd_document::schema_check::SchemaViolation;
 use urdd_findings::finding::{KEPT_PLACES, Place};

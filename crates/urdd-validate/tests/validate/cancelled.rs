@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use testkit::robots::{made, our_robots};
 use urdd_directory::cancellation::Cancellation;
-use urdd_directory::read_error::ReadError;
+use urdd_directory::listing::ReadError;
 use urdd_directory::source::{Disk, OpenFile, Source};
 use urdd_validate::settings::Settings;
 use urdd_validate::{ValidateError, validate, validate_source};

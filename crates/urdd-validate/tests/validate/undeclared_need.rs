@@ -6,7 +6,7 @@ use urdd_document::urdd::Urdd;
 use urdd_findings::check::Outcome;
 use urdd_findings::description::{Consequence, Description, Phase, Severity};
 use urdd_findings::finding::Findings;
-use urdd_findings::skip::SkipReason;
+use urdd_findings::part::SkipReason;
 use urdd_validate::code::Code;
 use urdd_validate::context::Context;
 use urdd_validate::rule::{CheckOf, Need, Rule};

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::fit::{Ball, Solid};
 use crate::reference::samples::Budget;
-use urdd_findings::skip::SkipReason;
+use urdd_findings::part::SkipReason;
 
 /// A point of a piece that is outside of all spheres.
 #[derive(Debug, Clone, Copy)]

@@ -13,7 +13,7 @@ use crate::reference::samples::{Budget, Poses};
 use crate::skip;
 use crate::tolerance::{POSITION_OF_REACH, reach};
 use urdd_document::urdd::Urdd;
-use urdd_findings::skip::SkipReason;
+use urdd_findings::part::SkipReason;
 use urdd_format::link_shapes_spheres::{LinkShapesSpheresModule, SPHERES_FIRST};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_geometry::convex::BodyPairs;

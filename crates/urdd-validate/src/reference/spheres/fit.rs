@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use crate::reference::samples::Budget;
 use crate::solids::Solids;
-use urdd_findings::skip::SkipReason;
+use urdd_findings::part::SkipReason;
 use urdd_format::link_shapes_spheres::{LinkSphere, SphereLevel};
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;

@@ -2,7 +2,7 @@
 
 use super::versions::checked_modules;
 use crate::rules::prelude::*;
-use urdd_directory::digest::{Change, compare};
+use urdd_directory::file_entry::{Change, compare};
 use urdd_directory::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
 use urdd_document::module::{JsonFile, Mirror, VersionFile};
 use urdd_findings::finding::{KEPT_PLACES, Place};

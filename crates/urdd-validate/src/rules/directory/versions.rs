@@ -1,7 +1,7 @@
 //! Versions of modules and of the specification, and the modules that a conformance class asks for.
 
 use crate::rules::prelude::*;
-use urdd_directory::digest::{Change, compare};
+use urdd_directory::file_entry::{Change, compare};
 use urdd_document::legacy::SIMPLE_SKIPS_DEPENDENCIES;
 use urdd_format::registry::{self, SPEC_VERSION};
 
