@@ -9,7 +9,7 @@ use urdd_robot::Robot;
 /// named configuration, where the setup says; otherwise on the floor. `None` where the base is fixed.
 ///
 /// # Errors
-/// Those of [`export`].
+/// Those of [`export`](crate::export).
 pub fn base_pose(
     robot: &Robot,
     options: &Options,

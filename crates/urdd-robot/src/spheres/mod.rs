@@ -18,7 +18,7 @@
 //! and spheres that are farther apart than that are free. Answers are the same on each instruction set of an architecture,
 //! for any number of threads, and alone as in a batch.
 //!
-//! Obstacles are what a [`World`](crate::World) has: boxes, spheres, capsules and cylinders exactly, hulls and the pieces of
+//! Obstacles are what a [`World`] has: boxes, spheres, capsules and cylinders exactly, hulls and the pieces of
 //! meshes by their exact distances, clouds of points and fields of heights by a tree.
 //!
 //! ```
