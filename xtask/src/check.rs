@@ -28,7 +28,7 @@ const TESTS: &[(&str, &str)] = &[
     ("architecture::files_stay_small", "split the file by ideas"),
     (
         "architecture::every_rule_on_disk",
-        "list the rule in the family's mod.rs, and its code in crates/urdd-findings/src/code.rs",
+        "list the rule in `RULES` of its file, the file in crates/urdd-validate/src/rules/mod.rs, and its code in crates/urdd-findings/src/code.rs",
     ),
     ("architecture::", "see the message; CONTRIBUTING.md says how a rule is written"),
     ("snapshots::", updates!("snapshots")),
