@@ -10,7 +10,7 @@ import { absentMeshes } from "./missing";
 import { RobotModel } from "./model";
 import type { Entry, Part } from "./model";
 import type { Site } from "./site";
-import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, NOT_MADE, partial, PARTIAL, StateStore, UNSEEN } from "./state";
+import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, NOT_MADE, partial, PARTIAL, StateStore, unseen } from "./state";
 import type { Layer, LayerKind, Pair, State } from "./state";
 import { keepUnits, message } from "./ui/format";
 import type { Units } from "./ui/format";
@@ -88,7 +88,7 @@ export class App {
       making: NOT_MADE,
       faults: new Map(),
       loading: { what: "modules", done: 0, of: 0 },
-      ...(old ? {} : UNSEEN),
+      ...(old ? {} : unseen()),
       proximity: { answer: null, error: null },
       contacts: null,
       absent: [],

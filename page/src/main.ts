@@ -31,6 +31,7 @@ import { Stage } from "./stage";
 import { button, byId, fill, h } from "./ui/dom";
 import { offer } from "./ui/files";
 import { message } from "./ui/format";
+import { Scrolled } from "./ui/scrolled";
 import { tabs } from "./ui/tabs";
 import { startTheme } from "./ui/theme";
 
@@ -129,6 +130,7 @@ function start(): void {
     failure,
     timeline.element,
   );
+  const scrolled = new Scrolled(app.store);
   const panels = {
     Joints: joints(app),
     Shapes: shapes(app),
@@ -158,6 +160,7 @@ function start(): void {
     saving.element,
     ...(savingMade ? [savingMade.element] : []),
   );
+  scrolled.keep(document.querySelectorAll(".body, .rows"));
   keys(app, stage);
   app.store.on(["robot"], ({ robot }) => {
     document.title = robot ? `${robot.name} · urdd` : "urdd";

@@ -18,6 +18,7 @@ import type { Obstacle } from "./showing";
 import type { Trajectory } from "./trajectory";
 import { keptUnits } from "./ui/format";
 import type { Units } from "./ui/format";
+import type { Opened } from "./ui/opened";
 
 /** The description that this page makes a robot of, as a text that a person may change. */
 export interface Draft {
@@ -170,6 +171,8 @@ export interface State {
     saved: number;
   };
   report: { report: Report | null; error: string | null; busy: string | null };
+  /** What is open among its findings, which panels keep; another robot's is another object. */
+  opened: Opened;
   /** Meshes that the URDF references and the URDD lacks. */
   absent: AbsentMesh[];
   /** Files that the MJCF, SDF or USD names, and that are not there. */
@@ -206,15 +209,21 @@ export const NO_SKIPS: State["skips"] = { answer: null, error: null, before: [],
 export const NOT_MADE: State["making"] = { making: null, failure: null };
 
 /** A robot that nobody has looked at: nothing is selected or hidden, and no program shows anything. */
-export const UNSEEN = {
-  selected: null,
-  hovered: null,
-  hidden: new Set<number>(),
-  pair: null,
-  compareWith: null,
-  world: [],
-  path: null,
-} satisfies Partial<State>;
+export function unseen(): Pick<
+  State,
+  "selected" | "hovered" | "hidden" | "pair" | "opened" | "compareWith" | "world" | "path"
+> {
+  return {
+    selected: null,
+    hovered: null,
+    hidden: new Set(),
+    pair: null,
+    opened: new Map(),
+    compareWith: null,
+    world: [],
+    path: null,
+  };
+}
 
 /** What panels say of a robot that has only what its picture needs. */
 export const PARTIAL = "this robot is still being generated.";
@@ -238,6 +247,7 @@ export function drawnLayers(state: Readonly<State>): State["layers"] {
 
 export function initial(): State {
   return {
+    ...unseen(),
     entries: [],
     draft: null,
     textAt: null,
@@ -249,8 +259,6 @@ export function initial(): State {
     poses: null,
     loops: null,
     keepClosed: true,
-    selected: null,
-    hovered: null,
     layers: Object.fromEntries(LAYERS.map((layer) => [layer, { on: layer === "original", opacity: 1 }])) as Record<
       LayerKind,
       Layer
@@ -267,12 +275,10 @@ export function initial(): State {
       grid: true,
     },
     frameSize: null,
-    hidden: new Set(),
     tab: "Joints",
     shapes: "pieces",
     proximity: { answer: null, error: null },
     contacts: null,
-    pair: null,
     skips: NO_SKIPS,
     report: { report: null, error: null, busy: null },
     absent: [],
@@ -282,9 +288,6 @@ export function initial(): State {
     byPart: true,
     sample: null,
     ghosts: [],
-    world: [],
-    path: null,
-    compareWith: null,
     compared: null,
     note: null,
     units: keptUnits(),

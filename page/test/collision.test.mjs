@@ -127,6 +127,12 @@ inPage(
     assert.ok(!/\b0 mm/.test(await page.locator(".pairs").innerText()));
     await rows.first().locator(".expand").click();
     assert.match(await rows.first().locator(".pieces .pair").first().textContent(), /piece \d+/);
+    // As after its files changed: the same two links, by their names.
+    const shown = await rows.first().locator(":scope > .pair").textContent();
+    await page.evaluate(() => globalThis.urdd.app.reopen(globalThis.urdd.app.store.now.robot.entry));
+    await state(page, "proximity", ({ answer }) => answer !== null);
+    await soon(async () => assert.equal(await rows.first().locator(":scope > .pair").textContent(), shown));
+    assert.ok(await rows.first().locator(".pieces .pair").first().isVisible());
   },
 );
 

@@ -94,6 +94,13 @@ inPage(set, "errors come by what they do, and all places and their text can be s
   const lines = readFileSync(join(set.made.robots, "welding_arm", place.file), "utf8").split("\n");
   assert.equal(text.trim(), lines[place.line - 1].trim());
   assert.ok((await at.locator(".line").count()) >= 3);
+  // All that was opened stays so when the findings are filtered, and are not.
+  const filter = page.getByLabel("Filter findings");
+  await filter.fill("no such words");
+  await card.waitFor({ state: "detached" });
+  await filter.fill("");
+  await soon(async () => assert.equal(await at.locator(".line.at code").textContent(), text));
+  assert.equal(await card.locator(".places > li:has(.place)").count(), many.places.length);
 });
 
 inPage(set, "a fault of most links paints none, unless it is chosen, and a legend says so", async (page) => {

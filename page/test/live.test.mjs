@@ -32,7 +32,7 @@ const set = setting([], () => view(urdf));
 
 const isWhole = (robot) => robot && robot.entry.making === null;
 const height = (page) => page.evaluate(() => globalThis.urdd.stage.scene.bounds().max.z);
-const bounds = (page) => page.evaluate(() => globalThis.urdd.app.store.now.robot?.about.dofs[0].bounds);
+const bounds = (page) => page.evaluate(() => globalThis.urdd.app.store.now.robot?.about.dofs.at(-1).bounds);
 
 inPage(set, "a limit and a radius that change on disk are shown, and the view stays", async (page) => {
   await drawn(page, "arm");
@@ -73,6 +73,30 @@ inPage(set, "a limit and a radius that change on disk are shown, and the view st
 
 function fixed(parent, child) {
   return `<joint name="${parent}_${child}" type="fixed"><parent link="${parent}"/><child link="${child}"/></joint>`;
+}
+
+inPage(set, "lists stay where they are scrolled while the file is saved", async (page) => {
+  const more = Array.from({ length: 20 }, (_, k) => `<link name="tool ${k}"/>${turning("b", `tool ${k}`)}`).join("");
+  replace(urdf, robot({ more }));
+  await page.setViewportSize({ width: 1280, height: 420 });
+  await drawn(page, "arm");
+  await soon(async () => assert.equal(await page.locator(".joint").count(), 21));
+  const lists = { "#panel-Joints": 400, "#links .rows": 150 };
+  for (const [list, top] of Object.entries(lists))
+    await page.locator(list).evaluate((element, top) => element.scrollTo(0, top), top);
+  replace(urdf, robot({ more, upper: 0.5 }));
+  await soon(async () => assert.deepEqual(await bounds(page), [-1, 0.5]));
+  await drawn(page, "arm");
+  for (const [list, top] of Object.entries(lists))
+    assert.equal(await page.locator(list).evaluate(({ scrollTop }) => scrollTop), top, list);
+  replace(urdf, robot());
+  await soon(async () => assert.equal(await page.locator(".joint").count(), 1));
+});
+
+function turning(parent, child) {
+  return fixed(parent, child)
+    .replace('type="fixed"', 'type="continuous"')
+    .replace("</joint>", '<axis xyz="1 0 0"/></joint>');
 }
 
 inPage(set, "a URDF that breaks: the page says so, keeps the picture, and goes on when it is mended", async (page) => {

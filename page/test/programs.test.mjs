@@ -106,6 +106,50 @@ inPage(set, "chips follow the text, and those of urdd.toml come first", async (p
   rmSync(join(folder, "urdd.toml"));
 });
 
+inPage(
+  set,
+  "what is open among findings stays open, and the panel where it is, while the file is saved",
+  async (page) => {
+    write(text);
+    // So low that the panel scrolls.
+    await page.setViewportSize({ width: 1280, height: 420 });
+    await drawn(page, "arm_with_faults");
+    await page.click("#tab-Findings");
+    await page.click('.programs [data-program="MuJoCo"]');
+    const usual = shown(page).locator("details.usual");
+    await usual.locator("summary").click();
+    // A rule's page, and the text of a place.
+    const inertia = page.locator("article", { hasText: "LNT001" });
+    await inertia.getByRole("button", { name: "Explain" }).click();
+    await inertia.locator(".explanation p").first().waitFor();
+    await inertia.locator(".place").click();
+    await inertia.locator(".line.at").waitFor();
+    const panel = page.locator("#panel-Findings");
+    const place = () => panel.evaluate(({ scrollTop }) => scrollTop);
+    await panel.evaluate((panel) => panel.scrollTo(0, 300));
+    assert.equal(await place(), 300);
+    const lines = () =>
+      page.evaluate(() => globalThis.urdd.app.store.now.report.report?.text.split("\n").length ?? null);
+    const before = await lines();
+    // A line above all: each place is a line further down.
+    write(`<!-- new -->\n${text}`);
+    await soon(async () => assert.equal(await lines(), before + 1));
+    assert.ok(await usual.evaluate(({ open }) => open));
+    assert.ok(await inertia.locator(".explanation p").first().isVisible());
+    assert.match(await inertia.locator(".line.at").textContent(), /^18.*<inertia/);
+    assert.equal(await inertia.locator(".place").getAttribute("aria-expanded"), "true");
+    assert.equal(await place(), 300);
+    // A click closes it for good.
+    await inertia.locator(".place").click();
+    await usual.locator("summary").click();
+    write(text);
+    await soon(async () => assert.equal(await lines(), before));
+    assert.ok(!(await usual.evaluate(({ open }) => open)));
+    assert.ok(await inertia.locator(".excerpt").isHidden());
+    assert.ok(await inertia.locator(".explanation p").first().isVisible());
+  },
+);
+
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 for (const colorScheme of ["dark", "light"]) {
   inPage(

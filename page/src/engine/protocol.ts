@@ -74,7 +74,6 @@ export interface Fault {
   reason: string;
 }
 
-/** The description of a robot: see `wasm/src/about.rs`. */
 /** A kinematic loop: the frames in two links that it holds together. */
 export interface Loop {
   name: string;
@@ -112,6 +111,7 @@ export interface ClosedLoops {
   is_closed: boolean;
 }
 
+/** The description of a robot: see `wasm/src/about.rs`. */
 export interface About {
   name: string | null;
   folder: string;

@@ -6,6 +6,8 @@ import { linkOf, namedLinks, paintNow, paintOf, places, tally, toMend, CONSEQUEN
 import type { State } from "../state";
 import { button, fill, h, prose } from "../ui/dom";
 import { message, count, name } from "../ui/format";
+import { folded, keep, keyed } from "../ui/opened";
+import type { Opened } from "../ui/opened";
 import { placeList } from "./places";
 import { programs } from "./programs";
 
@@ -16,6 +18,7 @@ type Grouping = (typeof GROUPS)[number];
 export function findings(app: App): HTMLElement {
   const off = new Set<Severity>();
   let grouping: Grouping = "severity";
+  let listed: Opened | null = null;
   const search = h("input", { type: "search", placeholder: "Filter", "aria-label": "Filter findings" });
   const by = h(
     "select",
@@ -39,13 +42,21 @@ export function findings(app: App): HTMLElement {
     h("div", { class: "actions" }, search, by),
     painting(app),
   );
-  const panel = h("div", { class: "panel" }, verdict, programs(app), tools, list);
+  const chips = programs(app);
+  const panel = h("div", { class: "panel" }, verdict, chips.element, tools, list);
   const validate = button("Validate", {}, () => void app.loadReport());
 
   const render = (): void => {
-    const { report: state, robot } = app.store.now;
+    const { report: state, robot, loading, opened } = app.store.now;
     const urdd = state.report?.urdds[0];
     const counts = state.report ? tally(state.report) : null;
+    if (!urdd && opened === listed && state.error === null && (robot ?? loading) !== null) {
+      // Another version of the robot is read: what was found stays where it is until the next report.
+      verdict.className = "verdict";
+      fill(verdict, state.busy ?? "The robot has changed.");
+      return;
+    }
+    listed = urdd ? opened : null;
     for (const [severity, button] of toggles) {
       const n = counts?.[severity] ?? 0;
       button.textContent = count(n, severity, severity === "info" ? "info" : undefined);
@@ -55,6 +66,7 @@ export function findings(app: App): HTMLElement {
     verdict.className = `verdict ${urdd?.verdict ?? ""}`;
     tools.hidden = !urdd;
     search.hidden = by.hidden = (urdd?.findings.length ?? 0) < 2;
+    chips.render();
     if (!urdd || !counts) {
       fill(
         verdict,
@@ -83,10 +95,10 @@ export function findings(app: App): HTMLElement {
     }
     fill(
       list,
-      imported(urdd),
+      imported(opened, urdd),
       ...[...groups].flatMap(([key, found]) => [
         h("h2", {}, `${key}: ${sum(found).toLocaleString("en")}, of ${count(found.length, "kind")}`),
-        ...found.map((finding) => card(app, finding)),
+        ...keyed(found, ({ code }) => `${key}\n${code}`).map(([key, finding]) => card(app, key, finding)),
       ]),
       shown.length === 0 && urdd.findings.length > 0 && h("p", { class: "empty" }, "No finding matches the filter."),
       ...notVerified(urdd),
@@ -97,7 +109,7 @@ export function findings(app: App): HTMLElement {
     grouping = by.value as Grouping;
     render();
   });
-  app.store.on(["report", "robot"], render);
+  app.store.on(["report", "robot", "failure"], render);
   app.store.on(["tab", "robot"], ({ tab, robot }) => {
     if (tab === "Findings" && robot) void app.loadReport();
   });
@@ -227,9 +239,15 @@ function notVerified(urdd: UrddReport): Node[] {
 }
 
 /** A finding: its message, its places, and the explanation of its rule. */
-function card(app: App, finding: Finding): HTMLElement {
+function card(app: App, key: string, finding: Finding): HTMLElement {
+  const { opened } = app.store.now;
   const explanation = h("div", { class: "explanation" });
-  const made = button("Explain", { class: "tiny" }, () => void explain(app, finding.code, explanation));
+  const explained = `${key}\nexplanation`;
+  const made = button("Explain", { class: "tiny" }, () => {
+    keep(opened, explained, explanation.childElementCount === 0);
+    void explain(app, finding.code, explanation);
+  });
+  if (opened.has(explained)) void explain(app, finding.code, explanation);
   const consequence = CONSEQUENCES.get(String(finding["consequence"]));
   return h(
     "article",
@@ -245,7 +263,7 @@ function card(app: App, finding: Finding): HTMLElement {
     ),
     h("p", {}, ...prose(name(finding.message))),
     h("p", { class: "hint" }, [consequence, count(finding.count, "place")].filter(Boolean).join(" · ")),
-    placeList(app, places(finding), finding.count),
+    placeList(app, key, places(finding), finding.count),
     explanation,
   );
 }
@@ -276,7 +294,7 @@ function paragraph(text: string): HTMLElement {
 }
 
 /** What an import made of an MJCF, SDF or USD, folded: what is lost, what is otherwise, and what was assumed. Nothing of a URDF. */
-function imported({ imported }: UrddReport): HTMLElement | false {
+function imported(opened: Opened, { imported }: UrddReport): HTMLElement | false {
   if (!imported) return false;
   const { format, lost, otherwise, notes } = imported;
   const lines = [
@@ -285,10 +303,11 @@ function imported({ imported }: UrddReport): HTMLElement | false {
     ...notes,
   ];
   const losses = lost.length > 0 ? `, ${count(lost.length, "kind of thing is", "kinds of things are")} lost` : "";
-  return h(
-    "details",
+  return folded(
+    opened,
+    "imported",
     { class: "imported" },
-    h("summary", {}, `Imported from ${format.toUpperCase()}${losses}`),
+    `Imported from ${format.toUpperCase()}${losses}`,
     h("ul", {}, ...lines.map((line) => h("li", {}, name(line)))),
   );
 }

@@ -6,19 +6,24 @@ import type { Place } from "../findings";
 import { fixesOf, isDraft, mend } from "../fixes";
 import { button, fill, h, prose } from "../ui/dom";
 import { message, count, name } from "../ui/format";
+import { keep, keyed } from "../ui/opened";
 
 /** Number of places shown at first, and added by each click. */
 const SHOWN = 5;
 const MORE = 50;
 
-/** The places of something that was found at `of` places, of which these are in the report. */
-export function placeList(app: App, all: readonly Place[], of: number): HTMLElement {
+/** The places of something that was found at `of` places, of which these are in the report; `what` is the key of what is open of it. */
+export function placeList(app: App, what: string, all: readonly Place[], of: number): HTMLElement {
+  const { opened } = app.store.now;
   const list = h("ul", { class: "places" });
-  const more = button("", { class: "tiny" }, () => show(shown + MORE));
+  const more = button("", { class: "tiny" }, () => {
+    show(shown + MORE);
+    opened.set(what, shown);
+  });
   const last = h("li", {}, more);
   let shown = 0;
   const show = (n: number): void => {
-    for (const place of all.slice(shown, n)) last.before(placeRow(app, place));
+    for (const [key, place] of withKeys(what, all.slice(0, n)).slice(shown)) last.before(placeRow(app, key, place));
     shown = Math.min(n, all.length);
     const left = all.length - shown;
     more.hidden = left === 0;
@@ -32,13 +37,19 @@ export function placeList(app: App, all: readonly Place[], of: number): HTMLElem
       );
   };
   list.append(last);
-  show(SHOWN);
+  show(opened.get(what) ?? SHOWN);
   return list;
 }
 
-function placeRow(app: App, place: Place): HTMLElement {
-  const { robot } = app.store.now;
+/** Places with their keys, by what they name: their lines change as a file is written. */
+function withKeys(what: string, all: readonly Place[]): [string, Place][] {
+  return keyed(all, ({ file, subject, pointer }) => [what, file, subject, pointer].join("\n"));
+}
+
+function placeRow(app: App, key: string, place: Place): HTMLElement {
+  const { robot, opened } = app.store.now;
   const link = robot ? linkOf(robot, place) : null;
+  const related = withKeys(key, place.related);
   const macro = place.written_at?.macro_name;
   const { draft } = app.store.now;
   const isInDraft = draft !== null && place.line !== null && isDraft(draft, place.file);
@@ -49,11 +60,19 @@ function placeRow(app: App, place: Place): HTMLElement {
   const text = h("div", { class: "excerpt", hidden: true });
   const label = prose(name(texts[0] ?? "the robot as a whole"));
   const go = button(label, { class: "place", title: texts.map(name).join("\n") }, () => {
-    if (link !== null) app.select({ kind: "link", index: link });
+    // Links are numbered anew in another version of the robot.
+    if (link !== null && app.store.now.robot === robot) app.select({ kind: "link", index: link });
     if (isInDraft) app.store.set({ tab: "Text", textAt: { line: place.line ?? 1, column: place.column } });
-    else if (place.file !== null && place.line !== null) void showText(app, place.file, place.line, place.column, text);
+    else if (place.file !== null && place.line !== null) toggle(place.file, place.line);
   });
+  const toggle = (path: string, line: number): void => {
+    text.hidden = !text.hidden;
+    go.setAttribute("aria-expanded", String(!text.hidden));
+    keep(opened, key, !text.hidden);
+    if (!text.hidden && text.childElementCount === 0) void showText(app, path, line, place.column, text);
+  };
   if (place.line !== null && !isInDraft) go.setAttribute("aria-expanded", "false");
+  if (opened.has(key) && !isInDraft && place.file !== null && place.line !== null) toggle(place.file, place.line);
   if (link === null && place.line === null) go.disabled = true;
   return h(
     "li",
@@ -78,7 +97,8 @@ function placeRow(app: App, place: Place): HTMLElement {
         place.actual !== null && h("dt", {}, "found"),
         place.actual !== null && h("dd", {}, name(place.actual)),
       ),
-    place.related.length > 0 && h("ul", { class: "places" }, ...place.related.map((other) => placeRow(app, other))),
+    place.related.length > 0 &&
+      h("ul", { class: "places" }, ...related.map(([key, other]) => placeRow(app, key, other))),
     text,
   );
 }
@@ -92,12 +112,8 @@ async function textOf(app: App, path: string): Promise<string> {
   return report.text;
 }
 
-/** Shows the lines around a place; a second click hides them. */
+/** Shows the lines around a place. */
 async function showText(app: App, path: string, line: number, column: number | null, into: HTMLElement): Promise<void> {
-  const button = into.parentElement?.querySelector(".place");
-  into.hidden = !into.hidden;
-  button?.setAttribute("aria-expanded", String(!into.hidden));
-  if (into.hidden || into.childElementCount > 0) return;
   try {
     const found = excerpt(await textOf(app, path), line, column);
     if (!found) throw new Error("the file no longer has this line");

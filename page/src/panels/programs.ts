@@ -5,6 +5,7 @@ import type { Deed, ProgramEffect, ProgramResult, UrddReport } from "../engine/p
 import type { Place } from "../findings";
 import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
+import { folded } from "../ui/opened";
 import { placeList } from "./places";
 
 /** The look of a chip, its sign, and the words behind its name. */
@@ -28,7 +29,8 @@ interface Group {
   programs: [ProgramResult, ...ProgramResult[]];
 }
 
-export function programs(app: App): HTMLElement {
+/** Its element, and what shows the report as it is now. */
+export function programs(app: App): { element: HTMLElement; render: () => void } {
   const chips = h("div", { class: "actions", role: "group", "aria-label": "What programs do with this URDF" });
   const details = h("section", { id: "program", class: "program", hidden: true });
   const element = h("div", { class: "programs", hidden: true }, chips, details);
@@ -63,8 +65,7 @@ export function programs(app: App): HTMLElement {
     details.hidden = shown === undefined;
     fill(details, ...(urdd && shown ? described(app, urdd, shown) : []));
   };
-  app.store.on(["report", "robot"], render);
-  return element;
+  return { element, render };
 }
 
 /** Programs of a family that do the same, in the order of the report. */
@@ -95,16 +96,18 @@ function described(app: App, urdd: UrddReport, { title, programs }: Group): Node
     h("p", { class: "hint" }, `As of ${versions.join(", ")}.`),
     ...kinds(
       app,
+      title,
       urdd,
       effects.filter(({ is_usual }) => !is_usual),
     ),
     ...(usual.length > 0
       ? [
-          h(
-            "details",
+          folded(
+            app.store.now.opened,
+            `${title}\nusual`,
             { class: "usual" },
-            h("summary", {}, `Usual, with any robot, or because of another fault: ${count(usual.length, "place")}`),
-            ...kinds(app, urdd, usual),
+            `Usual, with any robot, or because of another fault: ${count(usual.length, "place")}`,
+            ...kinds(app, title, urdd, usual),
           ),
         ]
       : []),
@@ -116,7 +119,7 @@ function described(app: App, urdd: UrddReport, { title, programs }: Group): Node
 }
 
 /** Effects of one kind together, with their places. */
-function kinds(app: App, urdd: UrddReport, effects: readonly ProgramEffect[]): Node[] {
+function kinds(app: App, title: string, urdd: UrddReport, effects: readonly ProgramEffect[]): Node[] {
   const found = new Map<string, ProgramEffect[]>();
   for (const effect of effects) {
     const key = JSON.stringify([effect.does, effect.reason, effect.makes]);
@@ -131,6 +134,7 @@ function kinds(app: App, urdd: UrddReport, effects: readonly ProgramEffect[]): N
       h("p", {}, ...prose(name(`${words}: ${reason}`))),
       placeList(
         app,
+        [title, words, reason].join("\n"),
         alike.map((effect) => place(urdd, effect)),
         alike.length,
       ),

@@ -9,6 +9,7 @@ import { decide, isOf, nearer } from "../skips";
 import type { Pair } from "../state";
 import { button, cut, fill, h } from "../ui/dom";
 import { count, length, name, percent } from "../ui/format";
+import { keep } from "../ui/opened";
 
 export const SHAPE_NAMES: Record<ShapeKind, string> = {
   hulls: "hulls",
@@ -67,10 +68,8 @@ export function proximity(app: App): HTMLElement {
     detail,
   );
   const rows: LinkRow[] = [];
-  /** Pairs of links whose pieces are visible. */
-  const open = new Set<string>();
   const render = (): void => {
-    const { robot, proximity, pair, shapes, tab } = app.store.now;
+    const { robot, proximity, pair, shapes, tab, opened } = app.store.now;
     if (tab !== "Proximity") return;
     const { answer, error } = proximity;
     const nearest = answer?.nearest.slice() ?? [];
@@ -79,7 +78,8 @@ export function proximity(app: App): HTMLElement {
     const widest = Math.max(...nearest.map((pair) => pair.statistics?.max ?? pair.distance), 1e-9);
     while (rows.length < found.length) {
       const made = linkRow(app, (key) => {
-        if (!open.delete(key)) open.add(key);
+        const { opened } = app.store.now;
+        keep(opened, key, !opened.has(key));
         render();
       });
       rows.push(made);
@@ -88,7 +88,7 @@ export function proximity(app: App): HTMLElement {
     rows.forEach(({ element, show }, k) => {
       const at = found[k];
       element.hidden = !at;
-      if (at) show(at, widest, pair, open.has(at.links.join()));
+      if (at) show(at, widest, pair, opened.has(keyOf(at)));
     });
     if (kind.value !== shapes) kind.value = shapes;
     state.textContent = answer?.pairs ? verdict(app) : "";
@@ -101,8 +101,12 @@ export function proximity(app: App): HTMLElement {
     selected(app, detail, nearest.find((at) => same(pair, pairOf(at))) ?? null, answer);
   };
   app.store.on(["robot", "proximity", "pair", "shapes", "skips", "tab", "units"], render);
-  app.store.on(["robot"], () => open.clear());
   return panel;
+}
+
+/** The key of whether the pieces of two links are listed. */
+function keyOf({ shapes }: LinkPair): string {
+  return ["pieces", ...(shapes[0]?.links ?? [])].join("\n");
 }
 
 /** Whether the robot collides, by links. */
@@ -142,8 +146,9 @@ function linkRow(app: App, toggle: (key: string) => void): LinkRow {
   let key = "";
   return {
     element,
-    show({ links, shapes }, widest, chosen, open) {
-      key = links.join();
+    show(pair, widest, chosen, open) {
+      key = keyOf(pair);
+      const { shapes } = pair;
       const ofPieces = app.store.now.shapes.startsWith("piece");
       const [first] = shapes;
       const touching = shapes.filter(isContact).length;
