@@ -139,6 +139,22 @@ inPage(
     assert.match(await inertia.locator(".line.at").textContent(), /^18.*<inertia/);
     assert.equal(await inertia.locator(".place").getAttribute("aria-expanded"), "true");
     assert.equal(await place(), 300);
+    // A chip can be clicked while the file is read.
+    const chosen = await page.evaluate(async () => {
+      const { app } = globalThis.urdd;
+      const { document } = globalThis;
+      let shown = null;
+      app.store.on(["robot"], ({ robot }) => {
+        if (robot || shown !== null) return;
+        document.querySelector('.programs [data-program="Drake"]').click();
+        shown = document.querySelector("#program h2")?.textContent ?? "nothing";
+        document.querySelector('.programs [data-program="MuJoCo"]').click();
+      });
+      await app.reopen(app.store.now.robot.entry);
+      return shown;
+    });
+    assert.match(chosen, /^Drake loads it/);
+    await soon(async () => assert.equal(await lines(), before + 1));
     // A click closes it for good.
     await inertia.locator(".place").click();
     await usual.locator("summary").click();

@@ -66,7 +66,7 @@ export function findings(app: App): HTMLElement {
     verdict.className = `verdict ${urdd?.verdict ?? ""}`;
     tools.hidden = !urdd;
     search.hidden = by.hidden = (urdd?.findings.length ?? 0) < 2;
-    chips.render();
+    chips.show(urdd);
     if (!urdd || !counts) {
       fill(
         verdict,

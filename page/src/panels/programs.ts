@@ -29,14 +29,14 @@ interface Group {
   programs: [ProgramResult, ...ProgramResult[]];
 }
 
-/** Its element, and what shows the report as it is now. */
-export function programs(app: App): { element: HTMLElement; render: () => void } {
+/** Its element, and what shows another report, or none. */
+export function programs(app: App): { element: HTMLElement; show: (urdd: UrddReport | undefined) => void } {
   const chips = h("div", { class: "actions", role: "group", "aria-label": "What programs do with this URDF" });
   const details = h("section", { id: "program", class: "program", hidden: true });
   const element = h("div", { class: "programs", hidden: true }, chips, details);
   let open: string | null = null;
+  let urdd: UrddReport | undefined;
   const render = (): void => {
-    const urdd = app.store.now.report.report?.urdds[0];
     const groups = grouped(urdd?.programs ?? []);
     const focused = document.activeElement?.getAttribute("data-program");
     element.hidden = groups.length === 0;
@@ -65,7 +65,11 @@ export function programs(app: App): { element: HTMLElement; render: () => void }
     details.hidden = shown === undefined;
     fill(details, ...(urdd && shown ? described(app, urdd, shown) : []));
   };
-  return { element, render };
+  const show = (next: UrddReport | undefined): void => {
+    urdd = next;
+    render();
+  };
+  return { element, show };
 }
 
 /** Programs of a family that do the same, in the order of the report. */
