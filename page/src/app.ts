@@ -32,6 +32,8 @@ export class App {
   /** The revision of the robot's files when they were read; null if unknown. */
   revision: string | null = null;
   private opening = 0;
+  /** Whether the page itself changes the robot's files, or reads what it changed: that is no news. */
+  isWriting = false;
   /** The robot whose first picture is complete. */
   private drawn: RobotModel | null = null;
   /** Called before a person moves the robot. */
@@ -156,6 +158,19 @@ export class App {
     await this.openNow(entry, robot);
     this.store.set({ skips: { ...this.store.now.skips, saved: skips.saved } });
     if (this.store.now.tab === "Findings") void this.loadReport();
+  }
+
+  /** Changes the files of the robot, if they are those that were read, and reads them again: as `change` says, or as they were. */
+  async write(change: (robot: RobotModel, revision: string) => Promise<Entry | null>): Promise<void> {
+    const { robot } = this.store.now;
+    if (!robot || this.revision === null) throw new Error("the server does not answer");
+    this.isWriting = true;
+    try {
+      const entry = await change(robot, this.revision);
+      if (this.store.now.robot === robot) await this.reopen(entry ?? robot.entry);
+    } finally {
+      this.isWriting = false;
+    }
   }
 
   close(): void {

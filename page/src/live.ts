@@ -33,7 +33,7 @@ export function follow(app: App): void {
     const { revision, entry } = await app.site.revision(robot.entry);
     app.store.set({ server: "here" });
     if (server !== "here") app.note("`urdd view` is back.");
-    if (app.store.now.robot !== robot || app.revision === null) return;
+    if (app.store.now.robot !== robot || app.revision === null || app.isWriting) return;
     if (entry.follows) states.follow(robot);
     const { making, failure } = entry;
     const { failure: before } = app.store.now.making;

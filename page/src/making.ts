@@ -88,12 +88,13 @@ export function saveDialog(app: App): { element: HTMLElement; open: () => void }
 }
 
 async function save(app: App, folder: string): Promise<string> {
-  const { robot } = app.store.now;
-  if (!robot) throw new Error("No robot is open.");
-  const path = `robots/${encodeURIComponent(robot.entry.id)}/keep`;
-  const answer = (await app.site.post(path, { folder })) as { folder: string };
-  const entries = await app.site.robots();
-  app.store.set({ entries });
-  await app.reopen(entries.find(({ id }) => id === robot.entry.id) ?? robot.entry);
-  return answer.folder;
+  let kept = folder;
+  await app.write(async ({ entry: { id } }) => {
+    const path = `robots/${encodeURIComponent(id)}/keep`;
+    kept = ((await app.site.post(path, { folder })) as { folder: string }).folder;
+    const entries = await app.site.robots();
+    app.store.set({ entries });
+    return entries.find((entry) => entry.id === id) ?? null;
+  });
+  return kept;
 }

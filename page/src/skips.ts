@@ -71,17 +71,13 @@ export async function save(app: App): Promise<void> {
 }
 
 async function post(app: App, wish: Record<string, unknown>, done: string): Promise<void> {
-  const { robot } = app.store.now;
-  const { revision } = app;
-  if (!robot || revision === null) {
-    app.note("The server does not answer: nothing was saved.");
-    return;
-  }
   try {
-    const path = `robots/${encodeURIComponent(robot.entry.id)}/skips`;
-    const answer = (await app.site.post(path, { ...wish, revision })) as { revision: string; undo: number };
-    app.store.set({ skips: { ...app.store.now.skips, before: [], dirty: false, saved: answer.undo } });
-    await app.reopen(robot.entry);
+    await app.write(async ({ entry }, revision) => {
+      const path = `robots/${encodeURIComponent(entry.id)}/skips`;
+      const answer = (await app.site.post(path, { ...wish, revision })) as { revision: string; undo: number };
+      app.store.set({ skips: { ...app.store.now.skips, before: [], dirty: false, saved: answer.undo } });
+      return null;
+    });
     app.note(done);
   } catch (error) {
     app.note(`Nothing was saved: ${message(error)}`);

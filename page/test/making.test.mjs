@@ -5,7 +5,7 @@ import { existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync 
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
-import { drawn, inPage, read, repository, run, setting, state, tab, view } from "./world.mjs";
+import { drawn, inPage, read, repository, run, setting, soon, state, tab, view } from "./world.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "urdd-making-"));
 // A robot of which something has to be assumed, and a package of meshes that is not there.
@@ -104,14 +104,28 @@ test("a pose is saved as a named configuration, and is a button then", { timeout
   await page.getByRole("button", { name: "Middle", exact: true }).click();
   const q = await state(page, "q", (value) => value.some((position) => position !== 0));
   await page.fill("#pose-name", "ready");
+  // The page looks for changes of the files while they are saved: its own are none.
+  await page.evaluate(() => {
+    globalThis.notes = [];
+    globalThis.urdd.app.store.on(["note"], ({ note }) => globalThis.notes.push(note));
+  });
+  let looked = 0;
+  await page.route("**/configurations", async (route) => {
+    const response = await route.fetch();
+    looked = 0;
+    await soon(() => assert.ok(looked > 1));
+    await route.fulfill({ response });
+  });
+  page.on("response", (response) => (looked += response.url().endsWith("/revision.json") ? 1 : 0));
   await page.getByRole("button", { name: "Save pose", exact: true }).click();
   await page.getByRole("button", { name: "ready", exact: true }).waitFor();
   const module = join(here, "named_configurations_module/module.json");
   assert.deepEqual(read(module).configurations[0].configuration, q);
+  assert.deepEqual(await page.evaluate(() => globalThis.notes), [null, "Saved as `ready`."]);
   await page.getByRole("button", { name: "Zero", exact: true }).click();
   await page.fill("#pose-name", "ready");
   await page.getByRole("button", { name: "Replace pose", exact: true }).click();
-  await state(page, "robot", (robot) => robot.named[0].q[0] !== q[0]);
+  await state(page, "robot", (robot) => robot && robot.named[0].q[0] !== q[0]);
   assert.equal(run("validate", "--fail-on", "info", here).status, 0);
   await close();
 });

@@ -299,14 +299,14 @@ function naming(app: App): HTMLElement {
 }
 
 async function save(app: App, shown: string, replace: boolean): Promise<string> {
-  const { robot, q, skips } = app.store.now;
-  const { revision } = app;
-  if (!robot || revision === null) throw new Error("the server does not answer");
-  const path = `robots/${encodeURIComponent(robot.entry.id)}/configurations`;
-  await app.site.post(path, { name: shown, configuration: q, replace, revision });
-  // Saves of skips cannot be undone past this one.
-  app.store.set({ skips: { ...skips, saved: 0 } });
-  await app.reopen(robot.entry);
+  await app.write(async ({ entry }, revision) => {
+    const { q, skips } = app.store.now;
+    const path = `robots/${encodeURIComponent(entry.id)}/configurations`;
+    await app.site.post(path, { name: shown, configuration: q, replace, revision });
+    // Saves of skips cannot be undone past this one.
+    app.store.set({ skips: { ...skips, saved: 0 } });
+    return null;
+  });
   return shown;
 }
 
