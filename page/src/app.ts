@@ -160,10 +160,11 @@ export class App {
     if (this.store.now.tab === "Findings") void this.loadReport();
   }
 
-  /** Changes the files of the robot, if they are those that were read, and reads them again: as `change` says, or as they were. */
+  /** Changes the files of the robot as they were read, then reads them: the entry that `change` returns, or the same. */
   async write(change: (robot: RobotModel, revision: string) => Promise<Entry | null>): Promise<void> {
     const { robot } = this.store.now;
-    if (!robot || this.revision === null) throw new Error("the server does not answer");
+    if (!robot) throw new Error("no robot is open");
+    if (this.revision === null) throw new Error("the server does not answer");
     this.isWriting = true;
     try {
       const entry = await change(robot, this.revision);

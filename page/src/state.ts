@@ -171,7 +171,7 @@ export interface State {
     saved: number;
   };
   report: { report: Report | null; error: string | null; busy: string | null };
-  /** What is open among its findings, which panels keep; another robot's is another object. */
+  /** What is open among its findings and pairs, which panels keep; another robot's is another object. */
   opened: Opened;
   /** Meshes that the URDF references and the URDD lacks. */
   absent: AbsentMesh[];

@@ -47,11 +47,10 @@ function withKeys(what: string, all: readonly Place[]): [string, Place][] {
 }
 
 function placeRow(app: App, key: string, place: Place): HTMLElement {
-  const { robot, opened } = app.store.now;
+  const { robot, opened, draft } = app.store.now;
   const link = robot ? linkOf(robot, place) : null;
   const related = withKeys(key, place.related);
   const macro = place.written_at?.macro_name;
-  const { draft } = app.store.now;
   const isInDraft = draft !== null && place.line !== null && isDraft(draft, place.file);
   const fixes = fixesOf(draft, place);
   const fix = fixes.length === 0 ? place.fixes?.[0] : undefined;
