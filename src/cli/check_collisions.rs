@@ -12,6 +12,8 @@ use super::arguments::value_of;
 use super::configurations::{self, Listed};
 use super::inputs;
 use super::output::{self, Failure};
+use super::watch::Watch;
+use urdd_directory::cancellation::Cancellation;
 use urdd_export::KINDS;
 use urdd_format::escape;
 use urdd_format::readable::counted;
@@ -97,7 +99,11 @@ impl Chosen<'_> {
 }
 
 /// Runs `urdd check-collisions`. The exit status is 1 if the robot collides in any configuration.
-pub fn run(arguments: &CheckCollisionsArguments) -> Result<u8, Failure> {
+pub fn run(arguments: &CheckCollisionsArguments, watch: &Watch) -> Result<u8, Failure> {
+    watch.run_one(&arguments.path, None, |cancellation| check(arguments, cancellation))
+}
+
+fn check(arguments: &CheckCollisionsArguments, cancellation: &Cancellation) -> Result<u8, Failure> {
     let robot = inputs::open(&arguments.path)?;
     let in_urdd = output::about(&arguments.path);
     let space = robot.configurations().map_err(&in_urdd)?;
@@ -111,13 +117,15 @@ pub fn run(arguments: &CheckCollisionsArguments) -> Result<u8, Failure> {
     let hidden = robot.skipped_contacts(arguments.shapes).map_err(&in_urdd)?;
     let sum = arguments.random.is_some_and(|count| count > FEW);
     if arguments.format == CollisionFormat::Text && sum {
-        let (text, any) = sum_up(&proximity, hidden.as_ref(), &chosen, dofs).map_err(&in_urdd)?;
+        let (text, any) =
+            sum_up(&proximity, hidden.as_ref(), &chosen, dofs, cancellation).map_err(&in_urdd)?;
         output::print(&text)?;
         return Ok(any.into());
     }
     let of_pieces = !proximity.kind().is_of_links();
     let (mut text, mut any) = (String::new(), false);
     for number in 0..chosen.count() {
+        cancellation.check()?;
         let configuration = chosen.at(number, dofs);
         let touching = proximity.collisions(&configuration).map_err(&in_urdd)?;
         let nearest = proximity.nearest(&configuration, arguments.nearest).map_err(&in_urdd)?;
@@ -247,6 +255,7 @@ fn sum_up(
     hidden: Option<&Proximity>,
     chosen: &Chosen,
     dofs: usize,
+    cancellation: &Cancellation,
 ) -> Result<(String, bool), RobotError> {
     let count = chosen.count();
     let (mut colliding, mut unseen): (u64, u64) = (0, 0);
@@ -263,9 +272,14 @@ fn sum_up(
                     let answer = shapes.in_collision(&[])?;
                     numbers.clone().map(|_| answer).collect()
                 }
-                _ => shapes.in_collision_batch(&values)?,
+                _ => {
+                    let mut answers = vec![false; numbers.clone().count()];
+                    shapes.in_collision_batch_into(&values, cancellation, &mut answers)?;
+                    answers
+                }
             };
             for (number, _) in numbers.clone().zip(answers).filter(|(_, collides)| *collides) {
+                cancellation.check()?;
                 *total += 1;
                 let touching = shapes.collisions(&chosen.at(number, dofs))?;
                 for (links, _) in links_of(&touching) {

@@ -6,7 +6,9 @@ use clap::Args;
 
 use super::generate::MakingArguments;
 use super::generate_output::{FAILED, Printer};
-use super::output::{self, Failure, Signals};
+use super::output::{self, Failure};
+use super::watch::Watch;
+use urdd_directory::cancellation::Cancellation;
 use urdd_generate::batch::Observer;
 use urdd_generate::combine::{Recipe, check_parts, combine};
 use urdd_source::robots::Job;
@@ -61,13 +63,15 @@ pub struct CombineArguments {
     making: MakingArguments,
 }
 
-pub fn run(arguments: &CombineArguments) -> Result<u8, Failure> {
+pub fn run(arguments: &CombineArguments, watch: &Watch) -> Result<u8, Failure> {
     let stopped = "stopped by a signal; nothing was changed";
-    output::stoppable(Some(stopped), |signals| put_together(arguments, signals))
+    let source = arguments.from.as_ref().or(arguments.sources.first());
+    let path = source.map_or(Path::new(""), PathBuf::as_path);
+    watch.run_one(path, Some(stopped), |cancellation| put_together(arguments, cancellation))
 }
 
-fn put_together(arguments: &CombineArguments, signals: &Signals) -> Result<u8, Failure> {
-    let settings = arguments.making.settings(Vec::new(), signals)?;
+fn put_together(arguments: &CombineArguments, cancellation: &Cancellation) -> Result<u8, Failure> {
+    let settings = arguments.making.settings(Vec::new(), cancellation)?;
     let pool = arguments.making.pool()?;
     let printer = Printer::new(arguments.making.format, false);
     if let (Some(legacy), None) = (&arguments.from, &arguments.output) {
@@ -108,7 +112,7 @@ fn put_together(arguments: &CombineArguments, signals: &Signals) -> Result<u8, F
         })
     };
     let outcome = output::without_panic_messages(|| recipe.and_then(make));
-    if signals.status().is_none() {
+    if !cancellation.is_cancelled() {
         printer.combined(&job, &outcome);
     }
     printer.status(outcome.is_err())

@@ -8,8 +8,10 @@ use super::arguments::{
     LoopsArguments, PackageArguments, RobotArguments, XacroArguments, only_arguments,
 };
 use super::inputs::advice;
-use super::output::{self, Failure, Signals};
+use super::output::{self, Failure};
+use super::watch::Watch;
 use urdd_diff::{DiffError, Options, Side, TOLERANCE, compare, markdown, text};
+use urdd_directory::cancellation::Cancellation;
 use urdd_source::{Settings, format_of};
 use urdd_validate::report;
 
@@ -82,11 +84,11 @@ impl DiffArguments {
     }
 }
 
-pub fn run(arguments: &DiffArguments) -> Result<u8, Failure> {
-    output::stoppable(None, |signals| diff(arguments, signals))
+pub fn run(arguments: &DiffArguments, watch: &Watch) -> Result<u8, Failure> {
+    watch.run_one(&arguments.after, None, |cancellation| diff(arguments, cancellation))
 }
 
-fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
+fn diff(arguments: &DiffArguments, cancellation: &Cancellation) -> Result<u8, Failure> {
     let settings =
         Settings { loops: arguments.named_loops.loops.clone(), ..arguments.packages.settings()? };
     // It is about the URDF of the two.
@@ -97,7 +99,7 @@ fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
         let loops = settings.loops.clone().filter(|_| !(is_of_one && says_itself(path)));
         let options = Options {
             urdf: Settings { loops, xacro: arguments.xacro.settings(of_xacro), ..settings.clone() },
-            cancellation: signals.cancellation(),
+            cancellation: cancellation.clone(),
             without_findings: arguments.no_findings,
         };
         Side::open(path, &options).map_err(|error| match error {
@@ -108,9 +110,7 @@ fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
     let sides = output::without_panic_messages(|| {
         (open(&arguments.before, of_before), open(&arguments.after, of_after))
     });
-    if let Some(status) = signals.status() {
-        return Ok(status);
-    }
+    cancellation.check()?;
     let (before, after) = match sides {
         (Ok(before), Ok(after)) => (before, after),
         // Both messages, so that both can be mended at once.

@@ -7,6 +7,7 @@ use clap::Subcommand;
 use super::arguments::around;
 use super::inputs::{self, Edited, SrdfArguments, edited, left_out, some_read, text, with_srdf};
 use super::output::{self, Failure, about, one_line, shown};
+use super::watch::Watch;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::limits::MAX_SPHERES_BYTES;
 use urdd_export::{
@@ -42,9 +43,9 @@ pub enum SkipsCommand {
     },
 }
 
-pub fn skips(command: &SkipsCommand) -> Result<u8, Failure> {
+pub fn skips(command: &SkipsCommand, watch: &Watch) -> Result<u8, Failure> {
     let SkipsCommand::Import { files, force } = command;
-    with_srdf(files, |text| import_skips(files, text, *force))
+    with_srdf(files, watch, |text| import_skips(files, text, *force))
 }
 
 fn import_skips(files: &SrdfArguments, text: &str, force: bool) -> Result<String, Failure> {
@@ -110,13 +111,12 @@ pub enum SpheresCommand {
     },
 }
 
-pub fn spheres(command: &SpheresCommand) -> Result<u8, Failure> {
+pub fn spheres(command: &SpheresCommand, watch: &Watch) -> Result<u8, Failure> {
     let SpheresCommand::Import { list, urdd } = command;
-    output::stoppable(None, |signals| {
-        let cancellation = signals.cancellation();
-        let spheres = spheres_of(list, &cancellation)?;
+    watch.run_one(urdd, None, |cancellation| {
+        let spheres = spheres_of(list, cancellation)?;
         let told = edited(urdd, ModuleKind::LinkShapesSpheres, |robot| {
-            let imported = import_spheres(robot, &spheres, &cancellation).map_err(about(list))?;
+            let imported = import_spheres(robot, &spheres, cancellation).map_err(about(list))?;
             let last = imported.module.levels.last();
             let mut told =
                 format!("{}: {} imported\n", shown(urdd), counted(imported.taken, "sphere"));
@@ -243,12 +243,12 @@ pub enum ConfigurationsCommand {
     },
 }
 
-pub fn configurations(command: &ConfigurationsCommand) -> Result<u8, Failure> {
+pub fn configurations(command: &ConfigurationsCommand, watch: &Watch) -> Result<u8, Failure> {
     let text = match command {
         ConfigurationsCommand::List { urdd } => list(urdd),
         ConfigurationsCommand::Set { urdd, name, positions } => set(urdd, name, positions),
         ConfigurationsCommand::Import { files, force } => {
-            return with_srdf(files, |text| import_configurations(files, text, *force));
+            return with_srdf(files, watch, |text| import_configurations(files, text, *force));
         }
         ConfigurationsCommand::Remove { urdd, name } => remove(urdd, name),
     };

@@ -9,6 +9,7 @@ use serde_json::Value;
 use super::arguments::parser;
 use super::inputs;
 use super::output::{self, Failure, about, shown};
+use super::watch::Watch;
 use urdd_directory::outputs::{self, Output, Target as Place};
 use urdd_export::{CHOICES, Choice, Choices, Export, Format, Kind, Note, Setup, export};
 use urdd_format::readable::counted;
@@ -166,12 +167,14 @@ fn targets() -> impl TypedValueParser<Value = Target> {
 #[derive(Clone, Copy)]
 struct Target(Option<Format>);
 
-pub fn run(arguments: &ExportArguments) -> Result<u8, Failure> {
-    match arguments.format.0 {
-        Some(format) => write_robot(arguments, format)?,
-        None => write_setup(arguments)?,
-    }
-    Ok(0)
+pub fn run(arguments: &ExportArguments, watch: &Watch) -> Result<u8, Failure> {
+    watch.run_one(&arguments.path, None, |_| {
+        match arguments.format.0 {
+            Some(format) => write_robot(arguments, format)?,
+            None => write_setup(arguments)?,
+        }
+        Ok(0)
+    })
 }
 
 fn write_robot(arguments: &ExportArguments, format: Format) -> Result<(), Failure> {

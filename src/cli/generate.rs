@@ -10,7 +10,9 @@ use super::arguments::{
     LoopsArguments, PackageArguments, Preferred, RobotArguments, XacroArguments, split, value_of,
 };
 use super::generate_output::{Printer, ResultFormat};
-use super::output::{self, Failure, Signals, one_line};
+use super::output::{self, Failure, one_line};
+use super::watch::{Watch, Work};
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::file_type::FileType;
 use urdd_export::REASONS;
 use urdd_format::escape;
@@ -58,16 +60,16 @@ pub struct GenerateArguments {
 }
 
 /// Runs `urdd generate`. Returns the exit status, as the other commands do.
-pub fn run(arguments: &GenerateArguments) -> Result<u8, Failure> {
+pub fn run(arguments: &GenerateArguments, watch: &Watch) -> Result<u8, Failure> {
     let stopped = "stopped by a signal; URDDs that were not finished are unchanged";
-    output::stoppable(Some(stopped), |signals| {
-        output::without_panic_messages(|| generate(arguments, signals))
+    watch.run(Work::Robots, Some(stopped), || {
+        output::without_panic_messages(|| generate(arguments, watch))
     })
 }
 
-fn generate(arguments: &GenerateArguments, signals: &Signals) -> Result<u8, Failure> {
+fn generate(arguments: &GenerateArguments, watch: &Watch) -> Result<u8, Failure> {
     let (robots, xacro_arguments) = split(&arguments.robots);
-    let mut settings = arguments.making.settings(xacro_arguments, signals)?;
+    let mut settings = arguments.making.settings(xacro_arguments, &watch.cancellation())?;
     settings.source.robots = arguments.declared.declared()?.into();
     let pool = arguments.making.pool()?;
     let are_several = robots::is_batch(&robots);
@@ -94,7 +96,7 @@ fn generate(arguments: &GenerateArguments, signals: &Signals) -> Result<u8, Fail
         let sieve = Sieve { printer: &printer, found: &found, parts: AtomicUsize::new(0) };
         let failed = pool.install(|| batch::run(&jobs, &arguments.output, &settings, &sieve));
         let parts = sieve.parts.into_inner();
-        if signals.status().is_none() {
+        if watch.status().is_none() {
             printer.end(jobs.len() - parts, failed - parts);
         }
         found.asides(parts).iter().for_each(|aside| output::error(aside));
@@ -162,7 +164,7 @@ fn one(
     let job = Job { name: output.display().to_string(), ..job };
     let progress = printer.begin(&job);
     let outcome = pool.install(|| {
-        batch::caught(&job.source, || match piped {
+        batch::watched(&job.source, settings, |settings| match piped {
             Some(urdf) => {
                 generate_text(urdf, "standard input", Path::new("."), output, settings, &*progress)
             }
@@ -281,7 +283,7 @@ impl MakingArguments {
     pub(super) fn settings(
         &self,
         xacro_arguments: Vec<String>,
-        signals: &Signals,
+        cancellation: &Cancellation,
     ) -> Result<Settings, Failure> {
         let selection = match self.modules.is_empty() {
             true => Selection::all(),
@@ -307,7 +309,7 @@ impl MakingArguments {
             skipped_reasons: self.skip.clone(),
             reference: self.reference.clone(),
             force: self.force,
-            cancellation: signals.cancellation(),
+            cancellation: cancellation.clone(),
             ..Settings::default()
         })
     }

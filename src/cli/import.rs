@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::arguments::PackageArguments;
 use super::output::{self, Failure, shown};
+use super::watch::Watch;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::outputs::{Output, Target};
 use urdd_format::readable::counted;
@@ -43,10 +44,18 @@ pub struct ImportArguments {
     packages: PackageArguments,
 }
 
-/// Runs `urdd import`. Returns what to print.
-pub fn run(arguments: &ImportArguments) -> Result<String, Failure> {
+/// Runs `urdd import`.
+pub fn run(arguments: &ImportArguments, watch: &Watch) -> Result<u8, Failure> {
+    watch.run_one(&arguments.file, None, |cancellation| {
+        output::print(&imported(arguments, cancellation)?)?;
+        Ok(0)
+    })
+}
+
+/// Imports, and returns what to print.
+fn imported(arguments: &ImportArguments, cancellation: &Cancellation) -> Result<String, Failure> {
     let settings = arguments.packages.settings()?;
-    let (imported, source) = import_whole(&arguments.file, &settings, &Cancellation::default())?;
+    let (imported, source) = import_whole(&arguments.file, &settings, cancellation)?;
     let robot = &source.reading.robot;
     let report = arguments.report.as_ref().map(|file| (file, imported.report.to_json()));
     let files = imported.files.iter();

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::arguments::{around, only_arguments};
 use super::output::{self, Failure, about, one_line, shown};
+use super::watch::Watch;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA};
 use urdd_directory::file_type::FileType;
@@ -61,10 +62,11 @@ pub struct SrdfArguments {
 /// command line.
 pub fn with_srdf(
     files: &SrdfArguments,
+    watch: &Watch,
     work: impl FnOnce(&str) -> Result<String, Failure>,
 ) -> Result<u8, Failure> {
-    output::stoppable(None, |signals| {
-        let text = srdf_or_xacro(files, &signals.cancellation())?;
+    watch.run_one(&files.urdd, None, |cancellation| {
+        let text = srdf_or_xacro(files, cancellation)?;
         output::print(&work(&text)?)?;
         Ok(0)
     })

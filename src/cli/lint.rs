@@ -7,8 +7,9 @@ use clap::Args;
 use similar::TextDiff;
 
 use super::arguments::{LoopsArguments, PackageArguments, XacroArguments, split};
-use super::output::{self, Color, Failure, Signals, about, one_line, shown};
+use super::output::{self, Color, Failure, about, one_line, shown};
 use super::validate::ReportArguments;
+use super::watch::{Watch, Work};
 use urdd_findings::baseline::Baseline;
 use urdd_findings::settings::parse_program;
 use urdd_findings::settings_file::{SETTINGS_FILE, SettingsFile};
@@ -78,11 +79,11 @@ pub struct LintArguments {
     xacro: XacroArguments,
 }
 
-pub fn run(arguments: &LintArguments, color: Color) -> Result<u8, Failure> {
-    output::stoppable(None, |signals| lint(arguments, color, signals))
+pub fn run(arguments: &LintArguments, watch: &Watch, color: Color) -> Result<u8, Failure> {
+    watch.run(Work::Robots, None, || lint(arguments, watch, color))
 }
 
-fn lint(arguments: &LintArguments, color: Color, signals: &Signals) -> Result<u8, Failure> {
+fn lint(arguments: &LintArguments, watch: &Watch, color: Color) -> Result<u8, Failure> {
     let file = arguments.report.settings_file()?;
     let robots = declared(&file).into();
     // A new one has all that is found.
@@ -101,7 +102,7 @@ fn lint(arguments: &LintArguments, color: Color, signals: &Signals) -> Result<u8
     if !arguments.programs.is_empty() {
         settings.report.programs.clone_from(&arguments.programs);
     }
-    settings.report.cancellation = signals.cancellation();
+    settings.report.cancellation = watch.cancellation();
     let (paths, xacro_arguments) = split(&arguments.paths);
     settings.source.xacro = arguments.xacro.settings(xacro_arguments);
     output::without_panic_messages(|| work(arguments, &paths, &settings, color))

@@ -21,6 +21,7 @@ mod rehash;
 mod schema;
 mod validate;
 mod view;
+mod watch;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -30,6 +31,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 use self::output::{Color, Failure, one_line};
+use self::watch::{LimitArguments, Watch};
 use urdd_format::escape;
 
 /// Specification, validator and reference generator of the Universal Robot Description Directory.
@@ -39,6 +41,9 @@ struct Arguments {
     /// When to colour the output.
     #[arg(long, global = true, value_enum, default_value_t = Color::Auto, value_name = "WHEN")]
     color: Color,
+
+    #[command(flatten)]
+    limits: LimitArguments,
 
     #[command(subcommand)]
     command: Command,
@@ -115,28 +120,33 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return usage(error, &words),
     };
-    let color = arguments.color;
+    let (color, limits) = (arguments.color, arguments.limits);
+    let watch = &Watch::new(limits);
     output::ended(match arguments.command {
-        Command::Generate(arguments) => generate::run(&arguments),
-        Command::Combine(arguments) => combine::run(&arguments),
-        Command::Import(arguments) => printed(import::run(&arguments)),
-        Command::Validate(arguments) => validate::run(&arguments, color),
-        Command::Lint(arguments) => lint::run(&arguments, color),
-        Command::Lsp { .. } => urdd_lsp::serve_stdio()
-            .map(|ended| u8::from(!ended.is_orderly()))
-            .map_err(|error| one_line(error).into()),
-        Command::Diff(arguments) => diff::run(&arguments),
-        Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
-        Command::View(arguments) => view::run(&arguments),
-        Command::Picture(arguments) => picture::run(&arguments),
-        Command::Export(arguments) => export::run(&arguments),
-        Command::Skips(command) => edits::skips(&command),
-        Command::Spheres(command) => edits::spheres(&command),
-        Command::Configurations(command) => edits::configurations(&command),
+        Command::Generate(arguments) => generate::run(&arguments, watch),
+        Command::Combine(arguments) => combine::run(&arguments, watch),
+        Command::Import(arguments) => import::run(&arguments, watch),
+        Command::Validate(arguments) => validate::run(&arguments, watch, color),
+        Command::Lint(arguments) => lint::run(&arguments, watch, color),
+        Command::Lsp { .. } => limits.none().map_err(Failure::from).and_then(|()| {
+            urdd_lsp::serve_stdio()
+                .map(|ended| u8::from(!ended.is_orderly()))
+                .map_err(|error| one_line(error).into())
+        }),
+        Command::Diff(arguments) => diff::run(&arguments, watch),
+        Command::CheckCollisions(arguments) => check_collisions::run(&arguments, watch),
+        Command::View(arguments) => view::run(&arguments, watch, limits),
+        Command::Picture(arguments) => picture::run(&arguments, watch),
+        Command::Export(arguments) => export::run(&arguments, watch),
+        Command::Skips(command) => edits::skips(&command, watch),
+        Command::Spheres(command) => edits::spheres(&command, watch),
+        Command::Configurations(command) => edits::configurations(&command, watch),
         Command::Explain(arguments) => printed(explain::run(&arguments)),
-        Command::Info(arguments) => printed(info::run(&arguments)),
-        Command::Rehash(arguments) => Ok(rehash::run(&arguments)),
-        Command::Conformance(command) => conformance::run(&command),
+        Command::Info(arguments) => info::run(&arguments, watch),
+        Command::Rehash(arguments) => rehash::run(&arguments, watch),
+        Command::Conformance(command) => {
+            limits.none().map_err(Failure::from).and_then(|()| conformance::run(&command, watch))
+        }
         Command::Schema(command) => schema::run(&command),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -1,22 +1,16 @@
-//! What a command has of its process: printing, its exit status, and the signals that stop it. All external text is escaped. A
-//! failed write is an error, except for a pipe that its reader has closed.
+//! What a command has of its process: printing, and its exit status. All external text is escaped. A failed write is an error,
+//! except for a pipe that its reader has closed.
 
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::ValueEnum;
-use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag;
-
-use urdd_directory::cancellation::Cancellation;
 use urdd_directory::outputs::{self, Output, OutputError, Target};
 use urdd_directory::staging::StagingError;
 use urdd_format::escape;
-use urdd_source::process;
 use urdd_validate::report::style::STYLES;
 
 /// Exit status: usage error, nothing could be examined, or the result could not be written.
@@ -235,85 +229,4 @@ pub fn without_panic_messages<T>(work: impl FnOnce() -> T) -> T {
     let done = work();
     let _ = std::panic::take_hook();
     done
-}
-
-#[cfg(unix)]
-use signal_hook::consts::SIGHUP;
-
-/// A shell adds this to a signal's number to form an exit status.
-const BY_SIGNAL: i32 = 128;
-
-/// The signals that request termination. Includes the hangup of a closed terminal, unless the user ignores it
-/// (`nohup`).
-fn asking() -> Vec<i32> {
-    let mut signals = vec![SIGINT, SIGTERM];
-    #[cfg(unix)]
-    if is_default(SIGHUP) {
-        signals.push(SIGHUP);
-    }
-    signals
-}
-
-/// Whether a signal has its default action in this process, according to Linux's `/proc`.
-#[cfg(unix)]
-fn is_default(signal: i32) -> bool {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let mut masks = ["SigIgn:", "SigCgt:"].iter().map(|key| {
-        let line = status.lines().find_map(|line| line.strip_prefix(key))?;
-        u64::from_str_radix(line.trim(), 16).ok()
-    });
-    masks.all(|mask| mask.is_some_and(|mask| mask & (1 << (signal - 1)) == 0))
-}
-
-/// Runs a command that a signal can stop; `stopped` is what is said then. The processes that it starts end with it.
-pub fn stoppable(
-    stopped: Option<&str>,
-    work: impl FnOnce(&Signals) -> Result<u8, Failure>,
-) -> Result<u8, Failure> {
-    let signals = Signals::listen()?;
-    process::adopt_orphans();
-    let result = work(&signals);
-    let Some(status) = signals.status() else { return result };
-    stopped.into_iter().for_each(error);
-    Ok(status)
-}
-
-/// The signals that request termination. The first one cancels the work at the next safe point; the second one ends the
-/// process immediately.
-pub struct Signals {
-    flag: Arc<AtomicBool>,
-    number: Arc<AtomicUsize>,
-}
-
-impl Signals {
-    /// Starts to listen.
-    ///
-    /// # Errors
-    /// If the operating system has no such signals.
-    pub fn listen() -> io::Result<Self> {
-        let signals = Signals { flag: Arc::default(), number: Arc::default() };
-        for signal in asking() {
-            // The order matters: at the first signal, the flag must not be set yet.
-            flag::register_conditional_shutdown(
-                signal,
-                BY_SIGNAL + signal,
-                Arc::clone(&signals.flag),
-            )?;
-            flag::register(signal, Arc::clone(&signals.flag))?;
-            let number = usize::try_from(signal).unwrap_or_default();
-            flag::register_usize(signal, Arc::clone(&signals.number), number)?;
-        }
-        Ok(signals)
-    }
-
-    pub fn cancellation(&self) -> Cancellation {
-        Cancellation::of(Arc::clone(&self.flag))
-    }
-
-    /// The exit status, if a signal was received.
-    pub fn status(&self) -> Option<u8> {
-        let number = i32::try_from(self.number.load(Ordering::Relaxed)).ok()?;
-        let status = u8::try_from(BY_SIGNAL + number).ok()?;
-        (number != 0).then_some(status)
-    }
 }

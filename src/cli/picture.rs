@@ -7,7 +7,9 @@ use clap::Args;
 use super::arguments::{PackageArguments, XacroArguments, split};
 use super::configurations::Lines;
 use super::inputs;
-use super::output::{self, Failure, Signals, about, shown};
+use super::output::{self, Failure, about, shown};
+use super::watch::Watch;
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;
 use urdd_directory::source::{Memory, is_archive};
 use urdd_format::readable::counted;
@@ -75,21 +77,21 @@ fn direction(word: &str) -> Result<[f64; 3], String> {
     values.filter(is_direction).ok_or_else(|| message.to_owned())
 }
 
-pub fn run(arguments: &PictureArguments) -> Result<u8, Failure> {
-    output::stoppable(None, |signals| {
-        let (paths, words) = split(&arguments.paths);
-        let [path] = paths.as_slice() else {
-            let count = counted(paths.len(), "path");
-            return Err(format!("a picture is of one robot; found {count}").into());
-        };
+pub fn run(arguments: &PictureArguments, watch: &Watch) -> Result<u8, Failure> {
+    let (paths, words) = split(&arguments.paths);
+    let [path] = paths.as_slice() else {
+        let count = counted(paths.len(), "path");
+        return Err(format!("a picture is of one robot; found {count}").into());
+    };
+    watch.run_one(path, None, |cancellation| {
         let robot = match path.is_file() && !is_archive(path) {
-            true => generated(path, words, arguments, signals)?,
+            true => generated(path, words, arguments, cancellation)?,
             false => inputs::open(path)?,
         };
         let configuration = configuration(&robot, arguments.configuration.as_deref())
             .map_err(|error| about(path)(error))?;
         let drawing = Drawing { size: arguments.size, from: arguments.from };
-        let picture = png(&robot, &configuration, &drawing, &signals.cancellation());
+        let picture = png(&robot, &configuration, &drawing, cancellation);
         let picture = picture.map_err(about(path))?;
         let picture = picture.ok_or_else(|| about(path)("it has no shape to draw"))?;
         output::write_alone(&arguments.output, &picture, arguments.force)?;
@@ -103,7 +105,7 @@ fn generated(
     path: &Path,
     words: Vec<String>,
     arguments: &PictureArguments,
-    signals: &Signals,
+    cancellation: &Cancellation,
 ) -> Result<Robot, Failure> {
     let settings = Settings {
         selection: modules(),
@@ -111,7 +113,7 @@ fn generated(
             xacro: arguments.xacro.settings(words),
             ..arguments.packages.settings()?
         },
-        cancellation: signals.cancellation(),
+        cancellation: cancellation.clone(),
         ..Settings::default()
     };
     let (made, files) = generate_in_memory(path, &settings, &()).map_err(output::one_line)?;

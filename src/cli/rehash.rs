@@ -1,10 +1,11 @@
 //! `urdd rehash`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::output::{self, one_line};
+use super::output::{self, Failure, one_line};
+use super::watch::Watch;
 use urdd_directory::discover::{Found, discover};
 use urdd_directory::metadata::rehash;
 use urdd_directory::root::Root;
@@ -29,7 +30,12 @@ pub struct RehashArguments {
 }
 
 /// Runs `urdd rehash`. Returns the exit status.
-pub fn run(arguments: &RehashArguments) -> u8 {
+pub fn run(arguments: &RehashArguments, watch: &Watch) -> Result<u8, Failure> {
+    let first = arguments.paths.first().map_or(Path::new(""), PathBuf::as_path);
+    watch.run_one(first, None, |_| Ok(rehashed(arguments)))
+}
+
+fn rehashed(arguments: &RehashArguments) -> u8 {
     let mut worst = 0;
     for path in &arguments.paths {
         match discover(path) {

@@ -8,6 +8,7 @@ use clap::{Args, ValueEnum};
 use super::arguments::{Class, Level, settings_file};
 use super::inputs::advice;
 use super::output::{self, Color, Failure};
+use super::watch::{Watch, Work};
 use urdd_directory::outputs::check_name;
 use urdd_format::report::{Report, Severity, Verdict};
 use urdd_validate::report::place::places;
@@ -45,8 +46,13 @@ pub struct ValidateArguments {
     with_crashing_rule: bool,
 }
 
-pub fn run(arguments: &ValidateArguments, color: Color) -> Result<u8, Failure> {
+pub fn run(arguments: &ValidateArguments, watch: &Watch, color: Color) -> Result<u8, Failure> {
+    watch.run(Work::Robots, None, || validate(arguments, watch, color))
+}
+
+fn validate(arguments: &ValidateArguments, watch: &Watch, color: Color) -> Result<u8, Failure> {
     let mut settings = arguments.report.settings_file()?.settings;
+    settings.cancellation = watch.cancellation();
     settings.class = arguments.class.map(Into::into).or(settings.class);
     settings.deep |= arguments.deep;
     let mut rules = rules::all();

@@ -11,7 +11,9 @@ use clap::Args;
 use super::arguments::{LoopsArguments, PackageArguments, RobotArguments, XacroArguments, split};
 use super::configurations::Lines;
 use super::generate_output::{FAILED, Printer, ResultFormat};
-use super::output::{self, Failure, Signals, one_line};
+use super::output::{self, Failure, one_line};
+use super::watch::{LimitArguments, Watch, Work};
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::DiscoverError;
 use urdd_directory::file_type::FileType;
 use urdd_directory::target_lock::Temporary;
@@ -19,7 +21,7 @@ use urdd_format::escape;
 use urdd_format::readable::counted;
 use urdd_robot::Robot;
 use urdd_source::robots::{self, BatchError, Job};
-use urdd_source::{RobotFile, Settings, process};
+use urdd_source::{RobotFile, Settings};
 use urdd_view::{
     Collection, ExportError, Live, Server, Shown, Source, export, may_hold_page, page_with,
 };
@@ -81,13 +83,19 @@ pub struct ViewArguments {
 const MAX_LINE: u64 = 1 << 20;
 
 /// Runs `urdd view`. All words of its errors may be of others.
-pub fn run(arguments: &ViewArguments) -> Result<u8, Failure> {
-    view(arguments).map_err(|error| escape::line(&error.to_string()).into())
+pub fn run(
+    arguments: &ViewArguments,
+    watch: &Watch,
+    limits: LimitArguments,
+) -> Result<u8, Failure> {
+    if arguments.export.is_none() {
+        limits.none()?;
+    }
+    view(arguments, watch).map_err(|error| escape::line(&error.to_string()).into())
 }
 
-fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
-    let signals = Signals::listen()?;
-    process::adopt_orphans();
+fn view(arguments: &ViewArguments, watch: &Watch) -> Result<u8, Failure> {
+    watch.begin(Work::Robots, None)?;
     let (paths, xacro_arguments) = split(&arguments.paths);
     if arguments.compare && paths.len() != 2 {
         let count = counted(paths.len(), "path");
@@ -102,7 +110,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
             loops: arguments.named_loops.loops.clone(),
             ..arguments.packages.settings()?
         },
-        cancellation: signals.cancellation(),
+        cancellation: watch.cancellation(),
         ..urdd_generate::Settings::default()
     };
     // Generated URDDs exist as long as this value.
@@ -124,7 +132,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         let mut unmade = Vec::new();
         for robot in &robots {
             let is_made = live.generate(robot);
-            if let Some(status) = signals.status() {
+            if let Some(status) = watch.status() {
                 return Ok(status);
             }
             if !is_made {
@@ -137,7 +145,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
             output::error("there is nothing to show");
             return Ok(FAILED);
         }
-        write_site(&collection, folder, opens.as_deref(), &signals)?;
+        write_site(&collection, folder, opens.as_deref(), &watch.cancellation())?;
         if unmade.is_empty() {
             return Ok(0);
         }
@@ -174,7 +182,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         let count = counted(robots.len(), "robot");
         let printed = output::print(&format!("{count}: {address}\nCtrl-C stops it.\n"));
         if printed.is_err() {
-            signals.cancellation().cancel();
+            watch.cancellation().cancel();
         }
         let _ = std::io::stdout().flush();
         if !arguments.no_open
@@ -184,7 +192,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
                 "no browser could be opened ({error}); open the address above yourself"
             ));
         }
-        server.run(&signals.cancellation());
+        server.run(&watch.cancellation());
         printed?;
         Ok(0)
     })
@@ -260,7 +268,7 @@ fn write_site(
     collection: &Collection,
     folder: &Path,
     opens: Option<&str>,
-    signals: &Signals,
+    cancellation: &Cancellation,
 ) -> Result<(), Failure> {
     let mut tell = |robot: &Shown| {
         let _ = writeln!(std::io::stderr().lock(), "{}", one_line(&robot.name));
@@ -281,7 +289,7 @@ fn write_site(
         }
         return Ok(output::write_alone(folder, page_with(robot, None)?.as_bytes(), true)?);
     }
-    for file in export(collection, folder, opens, &signals.cancellation(), &mut tell)? {
+    for file in export(collection, folder, opens, cancellation, &mut tell)? {
         output::error(&escape::line(&format!(
             "{}: kept, since it was changed after the last export; the site does not need it any more",
             file.display()

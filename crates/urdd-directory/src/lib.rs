@@ -26,5 +26,6 @@ pub mod source;
 pub mod staging;
 pub mod take;
 pub mod target_lock;
+pub mod unfinished;
 pub mod writer;
 pub mod yaml;

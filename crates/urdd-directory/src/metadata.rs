@@ -16,6 +16,7 @@ use crate::root::{ReadError, Root};
 use crate::staging::{Staging, StagingError};
 use crate::take::take_content;
 use crate::target_lock::TargetLock;
+use crate::unfinished::writing;
 use crate::writer::Writer;
 use crate::{canonical, file_entry, json};
 use urdd_format::registry::ModuleKind;
@@ -152,6 +153,7 @@ pub fn add_module(
     let own = files.iter().map(|(file, text)| (format!("{name}/{file}"), text.as_bytes()));
     file_entry::insert_module(modules, name, version, name, depends_on, own);
 
+    let _writing = writing();
     let folder = write_folder(parent, name, files)?;
     if let Err(error) = replace(parent, canonical::json_string(&metadata).as_bytes()) {
         let _ = fs::remove_dir_all(&folder);

@@ -17,6 +17,7 @@ use crate::cancellation::Cancellation;
 use crate::file_type::ROOT_METADATA;
 use crate::regular;
 use crate::staging::{Staging, StagingError};
+use crate::unfinished::{Unfinished, What, writing};
 use crate::writer::Writer;
 use urdd_format::escape;
 
@@ -175,6 +176,7 @@ impl Staged<'_> {
     /// # Errors
     /// If one cannot be moved. What was there before is in place then.
     pub fn put(self) -> Result<usize, OutputError> {
+        let _writing = writing();
         let Staged { folder, files, changed, staging, is_whole, outer, mut folders } = self;
         if files.is_empty() {
             return Ok(0);
@@ -241,6 +243,7 @@ pub fn check_report(file: &Path, bytes: &[u8], replaces: bool) -> Result<(), Out
 /// # Errors
 /// If something is there, or it cannot be written.
 pub fn fresh(place: &Path, bytes: &[u8]) -> io::Result<()> {
+    let _writing = writing();
     fs::create_dir_all(Target::File(place).folder())?;
     File::create_new(place)?.write_all(bytes)
 }
@@ -351,7 +354,7 @@ fn holds_only(folder: &Path, files: &[Output]) -> bool {
 
 /// New folders. Those that are empty are removed when this is dropped.
 #[derive(Debug, Default)]
-struct NewFolders(Vec<PathBuf>);
+struct NewFolders(Vec<(PathBuf, Unfinished)>);
 
 impl NewFolders {
     fn make(&mut self, folder: &Path) -> Result<(), OutputError> {
@@ -360,10 +363,12 @@ impl NewFolders {
         });
         let missing: Vec<PathBuf> = missing.map(Path::to_owned).collect();
         for path in missing.into_iter().rev() {
+            let _writing = writing();
             if let Err(error) = fs::create_dir(&path) {
                 return Err(OutputError::Write { path, error });
             }
-            self.0.push(path);
+            let unfinished = Unfinished::new(&path, What::Folder);
+            self.0.push((path, unfinished));
         }
         Ok(())
     }
@@ -371,7 +376,7 @@ impl NewFolders {
 
 impl Drop for NewFolders {
     fn drop(&mut self) {
-        for folder in self.0.iter().rev() {
+        for (folder, _) in self.0.iter().rev() {
             let _ = fs::remove_dir(folder);
         }
     }

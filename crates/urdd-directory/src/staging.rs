@@ -23,6 +23,7 @@ use crate::file_type::ROOT_METADATA;
 pub use crate::take::StagingError;
 use crate::take::{keep_modes, remove};
 use crate::target_lock::{TargetLock, beside};
+use crate::unfinished::{Unfinished, What, writing};
 use crate::{file_entry, regular};
 
 /// A folder in preparation.
@@ -35,6 +36,7 @@ pub struct Staging {
     content: PathBuf,
     /// Whether to replace the contents of the target and keep the folder itself.
     is_inside: bool,
+    _unfinished: Unfinished,
     /// Released last. `None` where the file system does not support locks.
     _lock: Option<TargetLock>,
 }
@@ -103,7 +105,9 @@ impl Staging {
             remove(&workplace);
         }
         let content = workplace.join(CONTENT);
-        let staging = Staging { target, workplace, content, is_inside, _lock: lock };
+        let _writing = writing();
+        let _unfinished = Unfinished::new(&workplace, What::Own);
+        let staging = Staging { target, workplace, content, is_inside, _unfinished, _lock: lock };
         fs::create_dir(&staging.workplace)
             .and_then(|()| fs::create_dir(&staging.content))
             .map_err(StagingError::write(&staging.target))?;
@@ -120,6 +124,7 @@ impl Staging {
         folder: &Path,
         paths: &[&'p Path],
     ) -> Result<(), (&'p Path, io::Error)> {
+        let _writing = writing();
         let content = &self.content;
         let [ready, was] = [READY, WAS].map(|name| self.workplace.join(name));
         for path in paths {
@@ -177,12 +182,16 @@ impl Staging {
     /// # Errors
     /// If it cannot be renamed. The old content is then in place.
     pub fn commit(self) -> Result<(), StagingError> {
-        keep_modes(&self.target, &self.content)
+        let _writing = writing();
+        let done = keep_modes(&self.target, &self.content)
             .and_then(|()| match self.is_inside {
                 true => self.put_changed(),
                 false => put(&self.content, &self.target, &self.workplace.join(OLD)),
             })
-            .map_err(StagingError::write(&self.target))
+            .map_err(StagingError::write(&self.target));
+        // What is left of the old content goes, or comes back, while nothing is removed from outside.
+        drop(self);
+        done
     }
 }
 

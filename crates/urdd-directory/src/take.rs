@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::unfinished::writing;
+
 /// Why a folder could not be written. Its old content is unchanged.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -60,7 +62,7 @@ pub fn take(from: &Path, to: &Path) -> Result<(), StagingError> {
     let kind = fs::symlink_metadata(from).map_err(StagingError::read(from))?;
     match kind.is_dir() {
         true => {
-            fs::create_dir(to).map_err(StagingError::write(to))?;
+            folder(to)?;
             take_content(from, to, &|_| false)
         }
         false => file(from, to),
@@ -85,14 +87,14 @@ fn content(
     below: &Path,
     without: &dyn Fn(&Path) -> bool,
 ) -> Result<(), StagingError> {
-    let folder = from.join(below);
-    for entry in fs::read_dir(&folder).map_err(StagingError::read(&folder))? {
-        let entry = entry.map_err(StagingError::read(&folder))?;
+    let here = from.join(below);
+    for entry in fs::read_dir(&here).map_err(StagingError::read(&here))? {
+        let entry = entry.map_err(StagingError::read(&here))?;
         let below = below.join(entry.file_name());
         let (source, target) = (from.join(&below), to.join(&below));
         let kind = entry.file_type().map_err(StagingError::read(&source))?;
         if kind.is_dir() {
-            fs::create_dir(&target).map_err(StagingError::write(&target))?;
+            folder(&target)?;
             content(from, to, &below, without)?;
         } else if !without(&below) {
             file(&source, &target)?;
@@ -101,8 +103,14 @@ fn content(
     Ok(())
 }
 
+fn folder(place: &Path) -> Result<(), StagingError> {
+    let _writing = writing();
+    fs::create_dir(place).map_err(StagingError::write(place))
+}
+
 /// Copies a file or a symbolic link. `to` must not exist.
 pub(crate) fn file(from: &Path, to: &Path) -> Result<(), StagingError> {
+    let _writing = writing();
     #[cfg(unix)]
     if fs::symlink_metadata(from).is_ok_and(|metadata| metadata.is_symlink()) {
         let target = fs::read_link(from).map_err(StagingError::read(from))?;

@@ -15,6 +15,7 @@ use sha2::{Digest, Sha256};
 
 use crate::cancellation::Cancellation;
 use crate::file_type::STAGING_PREFIX;
+use crate::unfinished::{Unfinished, What, writing};
 use urdd_format::hexadecimal::hexadecimal;
 
 /// Pause between attempts to get the lock.
@@ -26,6 +27,7 @@ pub struct TargetLock {
     path: PathBuf,
     /// Dropped after the file is removed, so that waiting runs notice that they waited for a removed file.
     _file: File,
+    _unfinished: Unfinished,
 }
 
 impl TargetLock {
@@ -57,10 +59,14 @@ impl TargetLock {
     /// If the file system does not support locks.
     pub fn at_once(target: &Path) -> io::Result<Option<Self>> {
         let path = beside(target, ".lock");
+        let _writing = writing();
         loop {
             let file = open(&path)?;
             match file.try_lock() {
-                Ok(()) if is_at(&file, &path) => return Ok(Some(TargetLock { path, _file: file })),
+                Ok(()) if is_at(&file, &path) => {
+                    let _unfinished = Unfinished::new(&path, What::Own);
+                    return Ok(Some(TargetLock { path, _file: file, _unfinished }));
+                }
                 // The previous run removed the file after this one opened it.
                 Ok(()) => continue,
                 Err(TryLockError::WouldBlock) => return Ok(None),
@@ -110,6 +116,7 @@ fn is_at(file: &File, path: &Path) -> bool {
 #[derive(Debug)]
 pub struct Temporary {
     path: PathBuf,
+    _unfinished: Unfinished,
     /// Released after the folder is removed.
     _lock: TargetLock,
 }
@@ -132,8 +139,10 @@ impl Temporary {
         let mut builder = fs::DirBuilder::new();
         #[cfg(unix)]
         std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+        let _writing = writing();
         builder.create(&path)?;
-        Ok(Temporary { path, _lock: lock })
+        let _unfinished = Unfinished::new(&path, What::Own);
+        Ok(Temporary { path, _unfinished, _lock: lock })
     }
 
     /// Writes a file that only this user can read.
@@ -146,6 +155,7 @@ impl Temporary {
         options.write(true).create_new(true);
         #[cfg(unix)]
         std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+        let _writing = writing();
         options.open(&path)?.write_all(text.as_bytes())?;
         Ok(path)
     }

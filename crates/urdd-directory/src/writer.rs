@@ -14,6 +14,7 @@ use sha2::{Digest, Sha256};
 
 use crate::source::Memory;
 use crate::staging::StagingError;
+use crate::unfinished::writing;
 use crate::{canonical, take};
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::index::Count;
@@ -264,18 +265,22 @@ impl Writer {
             files.put(path, bytes);
             return Ok(());
         }
+        let begun = writing();
         let place = self.place(path)?;
         // Never through a link, nor into a file of another folder that this one is a name of.
         let _ = fs::remove_file(&place);
         let mut file = File::create_new(place).map_err(failed)?;
+        drop(begun);
         write(&mut file).map_err(failed)
     }
 
     /// Writes a file to the disk, and waits until it is there.
     pub(crate) fn synced(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        let begun = writing();
         let place = self.root.join(path);
         place.parent().map_or(Ok(()), fs::create_dir_all)?;
         let mut file = File::create(place)?;
+        drop(begun);
         file.write_all(bytes)?;
         file.sync_all()
     }

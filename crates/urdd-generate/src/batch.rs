@@ -56,14 +56,15 @@ pub trait Observer: Sync {
 pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Observer) -> usize {
     // Outcomes that wait for earlier ones.
     let waiting = Mutex::new((0, BTreeMap::new()));
-    let failed = jobs.par_iter().enumerate().map(|(idx, job)| {
+    let one = |(idx, job): (usize, &Job)| {
         if settings.cancellation.is_cancelled() {
             return 0;
         }
         let progress = observer.begin(job);
         let target = folder.join(&job.name);
         let own = Settings { source: job.settings(&settings.source), ..settings.clone() };
-        let outcome = caught(&job.source, || generate(&job.source, &target, &own, &*progress));
+        let make = |own: &Settings| generate(&job.source, &target, own, &*progress);
+        let outcome = watched(&job.source, &own, make);
         let failed = usize::from(outcome.is_err());
         let mut waiting = waiting.lock().unwrap_or_else(PoisonError::into_inner);
         let (next, outcomes) = &mut *waiting;
@@ -73,8 +74,29 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
             *next += 1;
         }
         failed
-    });
-    failed.sum()
+    };
+    match settings.cancellation.is_watched() {
+        true => jobs.iter().enumerate().map(one).sum(),
+        false => jobs.par_iter().enumerate().map(one).sum(),
+    }
+}
+
+/// As [`caught`], within the limits of a robot, if the run has any.
+///
+/// # Errors
+/// Those of [`caught`]; [`GenerateError::Limit`] for a robot beyond its limits.
+pub fn watched<T>(
+    source: &Path,
+    settings: &Settings,
+    make: impl FnOnce(&Settings) -> Result<T, GenerateError>,
+) -> Result<T, GenerateError> {
+    let robot = settings.cancellation.robot(&source.display().to_string());
+    let made =
+        caught(source, || make(&Settings { cancellation: robot.clone(), ..settings.clone() }));
+    match robot.limit() {
+        Some(limit) => Err(GenerateError::Limit { file: source.display().to_string(), limit }),
+        None => made,
+    }
 }
 
 /// Runs `make` for a source and turns a panic into an error.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use urdd_directory::cancellation::Cancelled;
+use urdd_directory::cancellation::{Cancelled, Limit};
 use urdd_directory::position::Position;
 use urdd_directory::range::OutOfRange;
 use urdd_directory::staging::StagingError;
@@ -81,6 +81,14 @@ pub enum GenerateError {
     /// Generation was cancelled: `Settings::cancellation`.
     #[error("stopped before it was finished; nothing was changed")]
     Cancelled,
+    /// The robot takes more than it may.
+    #[error("{file}: {limit}")]
+    Limit {
+        /// The file, as the user named it.
+        file: String,
+        /// What it takes more of.
+        limit: Limit,
+    },
     /// The robot's geometry is out of the range that can be computed.
     #[error("{file}: {reason}; fix the mesh, or leave out the distances: `--modules geometry`")]
     Geometry {
@@ -143,6 +151,7 @@ impl GenerateError {
             GenerateError::SourceInTarget { .. } => "source-in-output",
             GenerateError::Write(_) => "not-written",
             GenerateError::Cancelled => "cancelled",
+            GenerateError::Limit { .. } => "limit",
             GenerateError::Geometry { .. } => "geometry",
             GenerateError::Internal { .. } => "internal",
         }

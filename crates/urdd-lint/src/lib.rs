@@ -60,7 +60,10 @@ pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError
         false => Found::Named,
     };
     let lint = |job: &Job| lint_file(job, is_found(job), paths, settings);
-    let linted: Vec<Option<Linted>> = jobs.par_iter().map(lint).collect();
+    let linted: Vec<Option<Linted>> = match settings.report.cancellation.is_watched() {
+        true => jobs.iter().map(lint).collect(),
+        false => jobs.par_iter().map(lint).collect(),
+    };
     settings.report.cancellation.check()?;
     let parts = linted.iter().filter(|one| one.is_none()).count();
     let linted = jobs.into_iter().zip(linted).filter_map(|(job, one)| Some((job.source, one?)));
@@ -128,11 +131,14 @@ fn lint_file(
     given: &[PathBuf],
     settings: &LintSettings,
 ) -> Option<Linted> {
-    let settings = &LintSettings { source: job.settings(&settings.source), ..settings.clone() };
+    let mut settings = LintSettings { source: job.settings(&settings.source), ..settings.clone() };
+    let run = settings.report.cancellation.clone();
     let path = job.source.as_path();
     let seen = seen_from(path, given);
     let (mut stale, mut text, mut is_part) = (Vec::new(), None, false);
-    let mut examined = Examined::caught::<SourceError>(Kind::Urdf, &seen, || {
+    let mut examined = Examined::watched::<SourceError>(Kind::Urdf, &seen, &run, |cancellation| {
+        settings.report.cancellation = cancellation.clone();
+        let settings = &settings;
         let (mut examined, unused) = match import(path, &settings.source)? {
             Some(imported) => {
                 let examined = examined_import(&imported, stems(path), settings)?;

@@ -121,18 +121,24 @@ pub fn validate_with<P: AsRef<Path>>(
     all.retain(|(_, found)| !settings.excludes.iter().any(|exclude| exclude.matches(&found.name)));
     let excluded = excluded - all.len();
     let kept = places::of_each(all.len());
-    let examined = all.par_iter().map(|(kind, found)| {
-        let mut examined = Examined::caught(*kind, &found.name, || match (kind, &found.closed) {
+    let run = &settings.cancellation;
+    let one = |(kind, found): &(Kind, Found)| {
+        let examine = |cancellation: &Cancellation| match (kind, &found.closed) {
             (Kind::Urdf, _) => engine::examine_urdf_file(found, rules),
             (Kind::Urdd, Some(error)) => Err(error.clone()),
             (Kind::Urdd, None) => {
-                Ok(examine(Urdd::read(&found.path)?, &found.name, settings, rules))
+                let settings = Settings { cancellation: cancellation.clone(), ..settings.clone() };
+                Ok(examine(Urdd::read(&found.path)?, &found.name, &settings, rules))
             }
-        });
+        };
+        let mut examined = Examined::watched(*kind, &found.name, run, examine);
         places::trim(&mut examined.checks, kept);
         examined
-    });
-    let examined = examined.collect();
+    };
+    let examined = match run.is_watched() {
+        true => all.iter().map(one).collect(),
+        false => all.par_iter().map(one).collect(),
+    };
     settings.cancellation.check()?;
     let folders = all.into_iter().map(|(_, found)| found.path);
     Ok(Run::of(examined, folders.collect(), excluded, settings))

@@ -115,7 +115,12 @@ impl Live<'_> {
     pub fn generate(&self, shown: &Arc<Shown>) -> bool {
         let Some(source) = shown.source.clone() else { return true };
         let robot = self.followed(Arc::clone(shown), source);
-        let outcome = self.whole(&robot, self.settings.cancellation.clone());
+        let one = self.settings.cancellation.robot(&shown.name);
+        let mut outcome = self.whole(&robot, one.clone());
+        if let Some(limit) = one.limit() {
+            outcome = Err(GenerateError::Limit { file: shown.name.clone(), limit });
+            self.observer.done(&robot.job, &outcome);
+        }
         let is_made = outcome.is_ok();
         robot.end(outcome);
         is_made

@@ -15,8 +15,10 @@ use parking_lot::Mutex;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::cli::output::{self, Failure, Signals, about};
+use crate::cli::output::{self, Failure, about};
+use crate::cli::watch::{Watch, Work};
 use urdd_conformance::running::{Skip, read_skips};
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::{outputs, regular};
 use urdd_validate::report;
 
@@ -148,9 +150,12 @@ fn is_log(file: &Path) -> bool {
 
 /// Runs a command that starts other programs, until a signal cancels it. `result` returns whether everything passed, except
 /// for skipped items; a failed item and a stale skip have the exit status 1.
-pub fn run(result: impl FnOnce(&Signals) -> Result<bool, Failure>) -> Result<u8, Failure> {
+pub fn run(
+    watch: &Watch,
+    result: impl FnOnce(Cancellation) -> Result<bool, Failure>,
+) -> Result<u8, Failure> {
     let stopped = "stopped by a signal; all started processes have ended";
-    output::stoppable(Some(stopped), |signals| Ok(u8::from(!result(signals)?)))
+    watch.run(Work::Programs, Some(stopped), || Ok(u8::from(!result(watch.cancellation())?)))
 }
 
 /// Time between two lines where standard error is not a terminal.

@@ -10,11 +10,13 @@ use clap::{Args, Subcommand};
 
 use self::common::RunArguments;
 use super::arguments::Class;
-use super::output::{self, Failure, Signals};
+use super::output::{self, Failure};
+use super::watch::Watch;
 use crate::suite;
 use urdd_conformance::export::{CATALOGUE, CATALOGUE_1_1, export};
 use urdd_conformance::process::Template;
 use urdd_conformance::producer::{Event, Plan, SKIP_FORM, run as run_producer};
+use urdd_directory::cancellation::Cancellation;
 use urdd_format::conformance::{
     ModuleStatus, ProducerResult, RefusedOutcome, RefusedScore, RobotScore, ScoreStatus,
 };
@@ -34,14 +36,14 @@ pub enum ConformanceCommand {
     Validator(validator::ValidatorArguments),
 }
 
-pub fn run(command: &ConformanceCommand) -> Result<u8, Failure> {
+pub fn run(command: &ConformanceCommand, watch: &Watch) -> Result<u8, Failure> {
     match command {
         ConformanceCommand::Export { folder } => exported(folder),
         ConformanceCommand::Producer(arguments) => {
-            common::run(|signals| produced(arguments, signals))
+            common::run(watch, |cancellation| produced(arguments, cancellation))
         }
         ConformanceCommand::Validator(arguments) => {
-            common::run(|signals| validator::judged(arguments, signals))
+            common::run(watch, |cancellation| validator::judged(arguments, cancellation))
         }
     }
 }
@@ -87,7 +89,7 @@ pub struct ProducerArguments {
 }
 
 /// Runs `urdd conformance producer`. Returns whether it passed.
-fn produced(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, Failure> {
+fn produced(arguments: &ProducerArguments, cancellation: Cancellation) -> Result<bool, Failure> {
     let plan = Plan {
         command: Template::new(&arguments.run.command, &["urdf", "out"])?,
         class: arguments.class.into(),
@@ -96,7 +98,7 @@ fn produced(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, Fa
         skips: arguments.run.skips(2, SKIP_FORM)?,
         jobs: arguments.run.jobs.map_or(1, usize::from),
         keep: arguments.run.keep.clone(),
-        cancellation: signals.cancellation(),
+        cancellation,
     };
     let suite = suite::carried()?;
     let follow = arguments.run.follow()?;

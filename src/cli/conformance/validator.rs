@@ -6,10 +6,11 @@ use clap::{Args, ValueEnum};
 use semver::Version;
 
 use super::common::RunArguments;
-use crate::cli::output::{Failure, Signals};
+use crate::cli::output::Failure;
 use crate::suite;
 use urdd_conformance::process::Template;
 use urdd_conformance::validator::{Event, Fault, Judged, Plan, SKIP_FORM, run as run_validator};
+use urdd_directory::cancellation::Cancellation;
 use urdd_format::conformance::{
     CaseFault, CaseScore, PrintedCodes, UnreadableFault, UnreadableScore, ValidatorProfile,
     ValidatorResult,
@@ -77,7 +78,7 @@ enum ProfileName {
 }
 
 /// Runs `urdd conformance validator`. Returns whether it passed.
-pub fn judged(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Failure> {
+pub fn judged(arguments: &ValidatorArguments, cancellation: Cancellation) -> Result<bool, Failure> {
     let command = match arguments.batch {
         true => Template::batch(&arguments.run.command, "dir"),
         false => Template::new(&arguments.run.command, &["dir"]),
@@ -96,7 +97,7 @@ pub fn judged(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool,
         unreadable_status: arguments.unreadable_status,
         jobs: arguments.run.jobs.map(usize::from),
         keep: arguments.run.keep.clone(),
-        cancellation: signals.cancellation(),
+        cancellation,
     };
     let suite = suite::carried()?;
     let follow = arguments.run.follow()?;

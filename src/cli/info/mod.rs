@@ -15,6 +15,7 @@ use self::sampled::{Statics, StaticsArguments};
 use super::arguments::around;
 use super::inputs;
 use super::output::{self, Failure, about, shown};
+use super::watch::Watch;
 use urdd_directory::discover::{Found, discover};
 use urdd_directory::file_type::FileType;
 use urdd_export::joint_orders;
@@ -51,8 +52,17 @@ enum InfoFormat {
     Json,
 }
 
-/// Runs `urdd info`. Returns what to print.
-pub fn run(arguments: &InfoArguments) -> Result<String, Failure> {
+/// Runs `urdd info`.
+pub fn run(arguments: &InfoArguments, watch: &Watch) -> Result<u8, Failure> {
+    let first = arguments.paths.first().map_or(Path::new(""), PathBuf::as_path);
+    watch.run_one(first, None, |_| {
+        output::print(&text(arguments)?)?;
+        Ok(0)
+    })
+}
+
+/// What it prints.
+fn text(arguments: &InfoArguments) -> Result<String, Failure> {
     let (mut infos, mut files) = (Vec::new(), Vec::new());
     for path in &arguments.paths {
         let found = match discover(path) {

@@ -43,6 +43,14 @@ pub(super) fn adopt_orphans() {
     ADOPTS.store(adopts, Ordering::Relaxed);
 }
 
+pub(super) fn end_all() {
+    running(|running| {
+        for group in running.iter().filter_map(|pid| Pid::from_raw(*pid)) {
+            let _ = kill_process_group(group, Signal::KILL);
+        }
+    });
+}
+
 impl Tree {
     pub fn start(mut command: Command) -> io::Result<Tree> {
         static NUMBER: AtomicU64 = AtomicU64::new(0);

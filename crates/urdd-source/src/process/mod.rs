@@ -103,6 +103,13 @@ impl Drop for Running {
     }
 }
 
+/// Ends the programs that run, for a process that ends at once. Elsewhere than on Linux, and without their descendants in other
+/// groups, they end by themselves.
+pub fn end_all() {
+    #[cfg(target_os = "linux")]
+    linux::end_all();
+}
+
 /// Makes this process adopt the orphans of its programs, so that they end too (Linux). For executables, not libraries:
 /// every child of this process that was not started here counts as such an orphan.
 pub fn adopt_orphans() {
