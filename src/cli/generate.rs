@@ -302,6 +302,7 @@ impl MakingArguments {
             source: urdd_source::Settings {
                 xacro: self.xacro.settings(xacro_arguments),
                 loops: self.named_loops.loops.clone(),
+                cancellation: cancellation.clone(),
                 ..self.packages.settings()?
             },
             strict: self.strict,
@@ -309,7 +310,6 @@ impl MakingArguments {
             skipped_reasons: self.skip.clone(),
             reference: self.reference.clone(),
             force: self.force,
-            cancellation: cancellation.clone(),
             ..Settings::default()
         })
     }

@@ -11,6 +11,7 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_directory::outputs::{Output, Target};
 use urdd_format::readable::counted;
 use urdd_import::{Imported, import_whole};
+use urdd_source::Settings;
 
 /// Maximum number of notes that are printed; the report has all.
 const MAX_NOTES: usize = 20;
@@ -54,8 +55,9 @@ pub fn run(arguments: &ImportArguments, watch: &Watch) -> Result<u8, Failure> {
 
 /// Imports, and returns what to print.
 fn imported(arguments: &ImportArguments, cancellation: &Cancellation) -> Result<String, Failure> {
-    let settings = arguments.packages.settings()?;
-    let (imported, source) = import_whole(&arguments.file, &settings, cancellation)?;
+    let settings =
+        Settings { cancellation: cancellation.clone(), ..arguments.packages.settings()? };
+    let (imported, source) = import_whole(&arguments.file, &settings)?;
     let robot = &source.reading.robot;
     let report = arguments.report.as_ref().map(|file| (file, imported.report.to_json()));
     let files = imported.files.iter();

@@ -102,7 +102,7 @@ fn lint(arguments: &LintArguments, watch: &Watch, color: Color) -> Result<u8, Fa
     if !arguments.programs.is_empty() {
         settings.report.programs.clone_from(&arguments.programs);
     }
-    settings.report.cancellation = watch.cancellation();
+    settings.source.cancellation = watch.cancellation();
     let (paths, xacro_arguments) = split(&arguments.paths);
     settings.source.xacro = arguments.xacro.settings(xacro_arguments);
     output::without_panic_messages(|| work(arguments, &paths, &settings, color))

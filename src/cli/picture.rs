@@ -111,9 +111,9 @@ fn generated(
         selection: modules(),
         source: urdd_source::Settings {
             xacro: arguments.xacro.settings(words),
+            cancellation: cancellation.clone(),
             ..arguments.packages.settings()?
         },
-        cancellation: cancellation.clone(),
         ..Settings::default()
     };
     let (made, files) = generate_in_memory(path, &settings, &()).map_err(output::one_line)?;

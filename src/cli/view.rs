@@ -108,9 +108,9 @@ fn view(arguments: &ViewArguments, watch: &Watch) -> Result<u8, Failure> {
             xacro: arguments.xacro.settings(xacro_arguments),
             robots: arguments.declared.declared()?.into(),
             loops: arguments.named_loops.loops.clone(),
+            cancellation: watch.cancellation(),
             ..arguments.packages.settings()?
         },
-        cancellation: watch.cancellation(),
         ..urdd_generate::Settings::default()
     };
     // Generated URDDs exist as long as this value.

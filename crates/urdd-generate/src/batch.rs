@@ -57,7 +57,7 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
     // Outcomes that wait for earlier ones.
     let waiting = Mutex::new((0, BTreeMap::new()));
     let one = |(idx, job): (usize, &Job)| {
-        if settings.cancellation.is_cancelled() {
+        if settings.source.cancellation.is_cancelled() {
             return 0;
         }
         let progress = observer.begin(job);
@@ -75,7 +75,7 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
         }
         failed
     };
-    match settings.cancellation.is_watched() {
+    match settings.source.cancellation.is_watched() {
         true => jobs.iter().enumerate().map(one).sum(),
         false => jobs.par_iter().enumerate().map(one).sum(),
     }
@@ -90,9 +90,10 @@ pub fn watched<T>(
     settings: &Settings,
     make: impl FnOnce(&Settings) -> Result<T, GenerateError>,
 ) -> Result<T, GenerateError> {
-    let robot = settings.cancellation.robot(&source.display().to_string());
-    let made =
-        caught(source, || make(&Settings { cancellation: robot.clone(), ..settings.clone() }));
+    let robot = settings.source.cancellation.robot(&source.display().to_string());
+    let mut settings = settings.clone();
+    settings.source.cancellation = robot.clone();
+    let made = caught(source, || make(&settings));
     match robot.limit() {
         Some(limit) => Err(GenerateError::Limit { file: source.display().to_string(), limit }),
         None => made,

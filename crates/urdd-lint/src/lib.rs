@@ -60,11 +60,11 @@ pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError
         false => Found::Named,
     };
     let lint = |job: &Job| lint_file(job, is_found(job), paths, settings);
-    let linted: Vec<Option<Linted>> = match settings.report.cancellation.is_watched() {
+    let linted: Vec<Option<Linted>> = match settings.source.cancellation.is_watched() {
         true => jobs.iter().map(lint).collect(),
         false => jobs.par_iter().map(lint).collect(),
     };
-    settings.report.cancellation.check()?;
+    settings.source.cancellation.check()?;
     let parts = linted.iter().filter(|one| one.is_none()).count();
     let linted = jobs.into_iter().zip(linted).filter_map(|(job, one)| Some((job.source, one?)));
     let (files, linted): (Vec<PathBuf>, Vec<Linted>) = linted.unzip();
@@ -89,7 +89,7 @@ pub fn lint_with_text(
     let arguments = declared.to_vec();
     let job = Job { arguments, ..Job::new(path.to_owned(), String::new()) };
     let mut linted = lint_file(&job, Found::Named, &from, settings);
-    settings.report.cancellation.check()?;
+    settings.source.cancellation.check()?;
     let text = linted.as_mut().and_then(|linted| linted.text.take());
     let text = text.or_else(|| as_written(path, &settings.source.files));
     Ok((run_of(&paths, Vec::from_iter(linted), 0, settings), text))
@@ -132,12 +132,12 @@ fn lint_file(
     settings: &LintSettings,
 ) -> Option<Linted> {
     let mut settings = LintSettings { source: job.settings(&settings.source), ..settings.clone() };
-    let run = settings.report.cancellation.clone();
+    let run = settings.source.cancellation.clone();
     let path = job.source.as_path();
     let seen = seen_from(path, given);
     let (mut stale, mut text, mut is_part) = (Vec::new(), None, false);
     let mut examined = Examined::watched::<SourceError>(Kind::Urdf, &seen, &run, |cancellation| {
-        settings.report.cancellation = cancellation.clone();
+        settings.source.cancellation = cancellation.clone();
         let settings = &settings;
         let (mut examined, unused) = match import(path, &settings.source)? {
             Some(imported) => {
@@ -145,7 +145,7 @@ fn lint_file(
                 text = Some(imported.original);
                 examined
             }
-            None => match read_source(path, &settings.source, &settings.report.cancellation) {
+            None => match read_source(path, &settings.source) {
                 Err(SourceError::NeedsArguments { needed, fault, .. }) => {
                     (lint_undeclared(path, &needed, &fault, settings), Vec::new())
                 }
