@@ -128,7 +128,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Command::Import(arguments) => import::run(&arguments, watch),
         Command::Validate(arguments) => validate::run(&arguments, watch, color),
         Command::Lint(arguments) => lint::run(&arguments, watch, color),
-        Command::Lsp { .. } => limits.none().map_err(Failure::from).and_then(|()| {
+        Command::Lsp { .. } => limits.refuse().map_err(Failure::from).and_then(|()| {
             urdd_lsp::serve_stdio()
                 .map(|ended| u8::from(!ended.is_orderly()))
                 .map_err(|error| one_line(error).into())
@@ -145,7 +145,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Command::Info(arguments) => info::run(&arguments, watch),
         Command::Rehash(arguments) => rehash::run(&arguments, watch),
         Command::Conformance(command) => {
-            limits.none().map_err(Failure::from).and_then(|()| conformance::run(&command, watch))
+            limits.refuse().map_err(Failure::from).and_then(|()| conformance::run(&command, watch))
         }
         Command::Schema(command) => schema::run(&command),
         Command::Completions { shell } => {

@@ -89,13 +89,14 @@ pub fn run(
     limits: LimitArguments,
 ) -> Result<u8, Failure> {
     if arguments.export.is_none() {
-        limits.none()?;
+        limits.refuse()?;
     }
     view(arguments, watch).map_err(|error| escape::line(&error.to_string()).into())
 }
 
 fn view(arguments: &ViewArguments, watch: &Watch) -> Result<u8, Failure> {
-    watch.begin(Work::Robots, None)?;
+    let work = if arguments.export.is_some() { Work::Robots } else { Work::Requests };
+    watch.begin(work, None)?;
     let (paths, xacro_arguments) = split(&arguments.paths);
     if arguments.compare && paths.len() != 2 {
         let count = counted(paths.len(), "path");

@@ -48,11 +48,11 @@ impl LimitArguments {
         self.max_time.is_some() || self.max_memory.is_some()
     }
 
-    /// Refuses limits.
+    /// Refuses limits, for what works on no robots, or on them without end.
     ///
     /// # Errors
     /// If there are any.
-    pub fn none(self) -> Result<(), String> {
+    pub fn refuse(self) -> Result<(), String> {
         match self.are_given() {
             true => {
                 Err("--max-time and --max-memory are of robots; a server runs until it is ended"
@@ -68,7 +68,7 @@ const GRACE: Duration = Duration::from_millis(700);
 /// How long the program waits for files that are being moved into place.
 const PATIENCE: Duration = Duration::from_secs(2);
 /// How long the program waits for somebody to read its last words.
-const LAST_WORDS: Duration = Duration::from_millis(100);
+const LAST_WORDS: Duration = Duration::from_millis(500);
 /// Time between two looks: without limits, and with.
 const PAUSES: [Duration; 2] = [Duration::from_millis(50), Duration::from_millis(5)];
 
@@ -97,6 +97,8 @@ pub enum Work {
     Robots,
     /// Programs of a person's, all of whose processes have to be ended.
     Programs,
+    /// Whatever pages ask for: a signal is the way to end it.
+    Requests,
 }
 
 impl Watch {
@@ -186,9 +188,13 @@ impl Watch {
                 self.look_at_limits();
                 continue;
             };
-            let is_over = asked.get_or_insert_with(Instant::now).elapsed() >= GRACE;
-            if is_over && !self.is_on(Work::Programs) {
-                end(status, self.stopped.get().copied());
+            if asked.get_or_insert_with(Instant::now).elapsed() < GRACE {
+                continue;
+            }
+            match self.work.get() {
+                Some(Work::Programs) => {}
+                Some(Work::Requests) => end(0, None),
+                _ => end(status, self.stopped.get().copied()),
             }
         }
     }

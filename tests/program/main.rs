@@ -45,6 +45,7 @@ mod security_doc;
 mod snapshots;
 mod spec_agrees;
 mod spheres;
+mod stopping;
 mod support_is_sound;
 mod texts;
 mod vectors;

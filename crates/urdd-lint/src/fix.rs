@@ -4,7 +4,6 @@ use std::fs::{self, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use rayon::prelude::*;
 use thiserror::Error;
 use urdd_directory::listing::ReadError;
 use urdd_directory::position::{LineIndex, Position};
@@ -15,6 +14,7 @@ use urdd_format::report::{Fix, Place, TextEdit};
 use urdd_source::Format;
 use urdd_xml::element::{Edit, apply};
 
+use crate::sources::within_limits;
 use crate::{LintError, LintSettings, sources, stems};
 
 /// How often a file is examined again: a mended fault may uncover another one.
@@ -78,9 +78,7 @@ pub fn mend(
     let mut files: Vec<PathBuf> = jobs.into_iter().map(|job| job.source).collect();
     files.dedup();
     let to = |path: &Path| target(path, paths, is_forced).ok();
-    let mended = files.par_iter().filter_map(|path| mended(path, settings, to)).collect();
-    settings.source.cancellation.check()?;
-    Ok(mended)
+    within_limits(&files, settings, |file| file, |file, settings| mended(file, settings, to))
 }
 
 fn mended(

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use thiserror::Error;
-use urdd_directory::cancellation::Cancelled;
+use urdd_directory::cancellation::{Cancelled, Limit};
 use urdd_directory::file_type::FileType;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::check::{Examined, blank};
@@ -33,6 +33,41 @@ pub enum LintError {
     /// Cancelled through the settings.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+    /// A robot takes more than it may, so that nothing is changed.
+    #[error("{file}: {limit}; to mend the others, leave it out with --exclude")]
+    Limit {
+        /// The file.
+        file: String,
+        /// What it takes more of.
+        limit: Limit,
+    },
+}
+
+/// What comes of each file, within the limits of a robot.
+pub(crate) fn within_limits<J: Sync, T: Send>(
+    jobs: &[J],
+    settings: &LintSettings,
+    file: fn(&J) -> &Path,
+    work: impl Fn(&J, &LintSettings) -> Option<T> + Sync,
+) -> Result<Vec<T>, LintError> {
+    let run = &settings.source.cancellation;
+    let one = |job: &J| {
+        let file = file(job).display().to_string();
+        let robot = run.robot(&file);
+        let mut settings = settings.clone();
+        settings.source.cancellation = robot.clone();
+        let done = work(job, &settings);
+        match robot.limit() {
+            Some(limit) => Some(Err(LintError::Limit { file, limit })),
+            None => done.map(Ok),
+        }
+    };
+    let found = match run.is_watched() {
+        true => jobs.iter().filter_map(one).collect(),
+        false => jobs.par_iter().filter_map(one).collect(),
+    };
+    run.check()?;
+    found
 }
 
 pub(crate) struct Sources {
@@ -151,19 +186,20 @@ pub fn undeclared(
     settings: &LintSettings,
 ) -> Result<Vec<Undeclared>, LintError> {
     let jobs = sources(paths, settings)?.jobs;
-    let cancellation = &settings.source.cancellation;
-    let of = |job: &Job| match read_source(&job.source, &job.settings(&settings.source)) {
-        Err(SourceError::NeedsArguments { needed, .. }) if job.arguments.is_empty() => {
-            Some(Undeclared {
-                needed: tried(&job.source, needed, settings),
-                file: job.source.clone(),
-            })
-        }
-        _ => None,
-    };
-    let found = jobs.par_iter().filter_map(of).collect();
-    cancellation.check()?;
-    Ok(found)
+    within_limits(
+        &jobs,
+        settings,
+        |job| &job.source,
+        |job, settings| match read_source(&job.source, &job.settings(&settings.source)) {
+            Err(SourceError::NeedsArguments { needed, .. }) if job.arguments.is_empty() => {
+                Some(Undeclared {
+                    needed: tried(&job.source, needed, settings),
+                    file: job.source.clone(),
+                })
+            }
+            _ => None,
+        },
+    )
 }
 
 /// The arguments, each with those of its values that make a robot with the first values of the others.
