@@ -245,16 +245,22 @@ pub enum ConfigurationsCommand {
 }
 
 pub fn configurations(command: &ConfigurationsCommand, watch: &Watch) -> Result<u8, Failure> {
-    let text = match command {
-        ConfigurationsCommand::List { urdd } => list(urdd),
-        ConfigurationsCommand::Set { urdd, name, positions } => set(urdd, name, positions),
-        ConfigurationsCommand::Import { files, force } => {
-            return with_srdf(files, watch, |text| import_configurations(files, text, *force));
-        }
-        ConfigurationsCommand::Remove { urdd, name } => remove(urdd, name),
+    let edit = |urdd: &Path, text: &dyn Fn() -> Result<String, Failure>| {
+        watch.run_one(urdd, None, |_| {
+            output::print(&text()?)?;
+            Ok(0)
+        })
     };
-    output::print(&text?)?;
-    Ok(0)
+    match command {
+        ConfigurationsCommand::List { urdd } => edit(urdd, &|| list(urdd)),
+        ConfigurationsCommand::Set { urdd, name, positions } => {
+            edit(urdd, &|| set(urdd, name, positions))
+        }
+        ConfigurationsCommand::Import { files, force } => {
+            with_srdf(files, watch, |text| import_configurations(files, text, *force))
+        }
+        ConfigurationsCommand::Remove { urdd, name } => edit(urdd, &|| remove(urdd, name)),
+    }
 }
 
 fn list(urdd: &Path) -> Result<String, Failure> {

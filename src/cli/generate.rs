@@ -163,15 +163,14 @@ fn one(
     let piped = is_piped.then(standard_input).transpose()?;
     let job = Job { name: output.display().to_string(), ..job };
     let progress = printer.begin(&job);
-    let outcome = pool.install(|| {
-        batch::watched(&job.source, settings, |settings| match piped {
-            Some(urdf) => {
-                generate_text(urdf, "standard input", Path::new("."), output, settings, &*progress)
-            }
-            None => urdd_generate::generate(&job.source, output, settings, &*progress),
-        })
-    });
-    drop(progress);
+    let (source, target) = (job.source.clone(), output.to_owned());
+    let make = move |settings: &Settings| match piped {
+        Some(urdf) => {
+            generate_text(urdf, "standard input", Path::new("."), &target, settings, &*progress)
+        }
+        None => urdd_generate::generate(&source, &target, settings, &*progress),
+    };
+    let outcome = pool.install(|| batch::within_limits(&job.source, settings, make));
     printer.done(&job, &outcome);
     Ok(usize::from(outcome.is_err()))
 }

@@ -44,6 +44,10 @@ pub struct ValidateArguments {
     /// Also runs a rule that crashes, to show how crashes are reported.
     #[arg(long, hide = true)]
     with_crashing_rule: bool,
+
+    /// Also runs a rule that takes ten minutes for a robot named `slow`, to show how limits are kept.
+    #[arg(long, hide = true)]
+    with_slow_rule: bool,
 }
 
 pub fn run(arguments: &ValidateArguments, watch: &Watch, color: Color) -> Result<u8, Failure> {
@@ -58,6 +62,9 @@ fn validate(arguments: &ValidateArguments, watch: &Watch, color: Color) -> Resul
     let mut rules = rules::all();
     if arguments.with_crashing_rule {
         rules.push(rules::testing::CRASHING);
+    }
+    if arguments.with_slow_rule {
+        rules.push(rules::testing::SLOW);
     }
     let run = output::without_panic_messages(|| {
         urdd_validate::validate_with(&arguments.paths, &settings, &rules)

@@ -33,7 +33,7 @@ pub struct LimitArguments {
     max_time: Option<Duration>,
 
     /// The most memory of the program, in MB; beyond it, as for --max-time.
-    #[arg(long, global = true, value_name = "MB", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, global = true, value_name = "MB", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     max_memory: Option<u64>,
 }
 
@@ -86,6 +86,8 @@ pub struct Watch {
     /// What is said after a signal.
     stopped: Arc<OnceLock<&'static str>>,
     work: Arc<OnceLock<Work>>,
+    /// Whether a robot was left behind.
+    leaves: Arc<AtomicBool>,
 }
 
 /// What is worked on.
@@ -107,8 +109,8 @@ impl Watch {
         let flag = Arc::<AtomicBool>::default();
         let of = if limits.are_given() { Cancellation::watched } else { Cancellation::of };
         let cancellation = of(Arc::clone(&flag));
-        let (number, stopped, work) = Default::default();
-        Watch { limits, cancellation, flag, number, stopped, work }
+        let (number, stopped, work, leaves) = Default::default();
+        Watch { limits, cancellation, flag, number, stopped, work, leaves }
     }
 
     /// Runs a command that can be stopped; `stopped` is what is said after a signal. The processes that it starts end with it.
@@ -120,6 +122,10 @@ impl Watch {
     ) -> Result<u8, Failure> {
         self.begin(on, stopped)?;
         let result = work();
+        if self.leaves.load(Ordering::Relaxed) {
+            process::end_all();
+            unfinished::abandon(PATIENCE);
+        }
         let Some(status) = self.status() else { return result };
         stopped.into_iter().for_each(output::error);
         Ok(status)
@@ -206,9 +212,14 @@ impl Watch {
         let is_above = |most: u64| used.is_some_and(|used| used > most);
         for RobotInWork { name, since, cancellation } in self.cancellation.in_work() {
             if let Some((limit, at)) = cancellation.exceeded() {
-                let grace = self.grace();
-                if at.elapsed() > grace || most.is_some_and(|most| is_above(most + most / 4)) {
+                let is_much = most.is_some_and(|most| is_above(most + most / 4));
+                let over = at.elapsed().saturating_sub(self.grace());
+                if is_much || over > self.left_behind() {
                     end(USAGE, Some(&self.unended(&name, limit)));
+                }
+                if over > Duration::ZERO && matches!(limit, Limit::Time(_)) {
+                    self.leaves.store(true, Ordering::Relaxed);
+                    cancellation.give_up();
                 }
             } else if let Some(most) = self.limits.max_time.filter(|most| since.elapsed() > *most) {
                 cancellation.exceed(Limit::Time(most));
@@ -222,12 +233,17 @@ impl Watch {
         self.work.get() == Some(&work)
     }
 
-    /// How long a robot beyond a limit has to end by itself. The others have no reports if the run ends with it.
+    /// How long a robot beyond a limit has to end by itself.
     fn grace(&self) -> Duration {
         match self.is_on(Work::OneRobot) {
             true => GRACE,
             false => self.limits.max_time.unwrap_or(GRACE).max(GRACE),
         }
+    }
+
+    /// How long a robot that was given up may be waited for.
+    fn left_behind(&self) -> Duration {
+        if self.is_on(Work::OneRobot) { Duration::ZERO } else { self.grace() }
     }
 
     fn unended(&self, name: &str, limit: Limit) -> String {

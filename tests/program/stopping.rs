@@ -11,7 +11,9 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
+use testkit::robots::{made, our_robots};
 use urdd_directory::cancellation::Cancellation;
+use urdd_directory::take::take;
 use urdd_directory::target_lock::TargetLock;
 
 /// The longest time that a stopped program may need on a busy machine. What it waits for does not come before.
@@ -43,11 +45,12 @@ impl Workshop {
             .unwrap();
         fs::write(
             shop.at("list.yml"),
-            "collision_spheres:\n  base:\n    - {center: [0, 0, 0], radius: 0.1}\n",
+            "collision_spheres:\n  block:\n    - {center: [0, 0, 0], radius: 0.1}\n",
         )
         .unwrap();
-        let made = shop.command(&["generate", "arm.urdf", "-o", "urdd"]).output().unwrap();
-        assert!(made.status.success(), "{made:?}");
+        let (_, single) = our_robots().into_iter().find(|(name, _)| name == "single_link").unwrap();
+        let (_made, made) = made(&single);
+        take(&made, &shop.at("urdd")).unwrap();
         shop
     }
 
@@ -192,7 +195,7 @@ fn one_signal_ends_whoever_waits_for_another_run() {
         &["export", "srdf", "urdd", "-o", "arm.srdf"],
         &["picture", "urdd", "-o", "out.png"],
         &["spheres", "import", "list.yml", "urdd"],
-        &["configurations", "set", "urdd", "home", "elbow=0.5"],
+        &["configurations", "set", "urdd", "home"],
         &["generate", "arm.urdf", "-o", "out"],
         &["combine", "arm.urdf", "arm.urdf", "--at", "hand", "-o", "out"],
         &["view", "--export", "out", "urdd"],
@@ -250,7 +253,8 @@ fn what_is_unfinished_is_removed_and_what_is_finished_is_whole() {
     }
     let before = shop.content();
     let (_reader, full) = full_pipe();
-    let mut command = shop.command(&["generate", "robots", "-o", "out", "--threads", "2"]);
+    let mut command =
+        shop.command(&["generate", "robots", "-o", "out", "--threads", "2", "--modules", "core"]);
     let mut started = Started(command.stdout(full).spawn().unwrap());
     let begun = Instant::now();
     let is_made = || fs::read_dir(shop.at("out")).is_ok_and(|made| made.count() > 0);
@@ -317,7 +321,12 @@ fn in_a_batch_others_have_their_results() {
     let lint = ["lint", "robots", "--format", "json"];
     let (lint, generate) = std::thread::scope(|scope| {
         let generate = scope.spawn(|| {
-            ended(shop.command(&[&["generate", "robots", "-o", "out"] as &[&str], &limit].concat()))
+            ended(
+                shop.command(
+                    &[&["generate", "robots", "-o", "out", "--modules", "core"] as &[&str], &limit]
+                        .concat(),
+                ),
+            )
         });
         (ended(shop.command(&[&lint as &[&str], &limit].concat())), generate.join().unwrap())
     });
@@ -340,6 +349,31 @@ fn in_a_batch_others_have_their_results() {
     assert!(!shop.at("out/b").exists());
     let said = String::from_utf8_lossy(&generate.stderr).into_owned();
     assert!(said.contains("robots/b.urdf.xacro: not finished within 10 s"), "{said}");
+}
+
+/// One that does not stop is left behind.
+#[test]
+fn in_a_batch_others_do_not_wait_for_one_that_does_not_stop() {
+    let shop = Workshop::new();
+    for name in ["a", "slow", "z"] {
+        fs::write(shop.at("one.urdf"), ARM.replace("\"arm\"", &format!("\"{name}\""))).unwrap();
+        let out = format!("robots/{name}");
+        let words = ["generate", "one.urdf", "-o", &out, "--modules", "core"];
+        assert!(ended(shop.command(&words)).status.success());
+    }
+    let words = ["validate", "robots", "--with-slow-rule", "--max-time", "6", "--format", "json"];
+    let output = ended(shop.command(&words));
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let told = report["urdds"].as_array().unwrap().iter();
+    let told: Vec<_> = told.map(|one| (&one["path"], &one["verdict"])).collect();
+    assert_eq!(
+        serde_json::json!(told),
+        serde_json::json!([["a", "pass"], ["slow", "unreadable"], ["z", "pass"]])
+    );
+    // Alone, it ends the run by a signal too.
+    let words = ["validate", "robots/slow", "--with-slow-rule"];
+    assert_eq!(shop.start(&words).stopped("-INT").0, Some(130));
 }
 
 #[test]

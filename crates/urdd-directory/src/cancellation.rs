@@ -21,6 +21,8 @@ struct State {
     run: Option<Cancellation>,
     /// The limit that it was cancelled for, and when.
     exceeded: OnceLock<(Limit, Instant)>,
+    /// Whether nobody waits any longer for the work to stop.
+    is_given_up: AtomicBool,
     /// The robots that are worked on, if each has limits.
     robots: Option<Mutex<Vec<RobotInWork>>>,
 }
@@ -93,6 +95,16 @@ impl Cancellation {
     /// The limit that it was cancelled for, and when.
     pub fn exceeded(&self) -> Option<(Limit, Instant)> {
         self.0.exceeded.get().copied()
+    }
+
+    /// Says that the work does not stop, and that whoever can leave it behind is to go on without it.
+    pub fn give_up(&self) {
+        self.0.is_given_up.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether it was given up.
+    pub fn is_given_up(&self) -> bool {
+        self.0.is_given_up.load(Ordering::Relaxed)
     }
 
     /// Whether each robot of the run has limits. They are worked on one after the other then: who works on two at once does

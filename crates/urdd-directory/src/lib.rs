@@ -28,5 +28,6 @@ pub mod staging;
 pub mod take;
 pub mod target_lock;
 pub mod unfinished;
+pub mod watched;
 pub mod writer;
 pub mod yaml;

@@ -9,7 +9,7 @@ use super::code::Code;
 use super::description::{Description, Phase};
 use super::finding::{Finding, Findings};
 use super::part::{Faulted, NotVerified, Part, Scope, SkipReason, Why};
-use urdd_directory::cancellation::Cancellation;
+use urdd_directory::cancellation::Limit;
 use urdd_directory::position::Position;
 use urdd_format::index::Count;
 use urdd_format::registry::ModuleKind;
@@ -192,22 +192,10 @@ impl Examined {
         }
     }
 
-    /// As [`Examined::caught`], within the limits of a robot, if the run has any: beyond them nothing is said of it but that.
-    pub fn watched<E: Display>(
-        kind: Kind,
-        name: &str,
-        run: &Cancellation,
-        examine: impl FnOnce(&Cancellation) -> Result<Examined, E>,
-    ) -> Examined {
-        let robot = run.robot(name);
-        let examined = Examined::caught(kind, name, || examine(&robot));
-        match robot.limit() {
-            Some(limit) => {
-                let reason = format!("not examined: {limit}");
-                Examined::without_checks(kind, name, Verdict::Unreadable, reason)
-            }
-            None => examined,
-        }
+    /// One that takes more than it may.
+    pub fn beyond(limit: Limit, kind: Kind, name: &str) -> Examined {
+        let reason = format!("not examined: {limit}");
+        Examined::without_checks(kind, name, Verdict::Unreadable, reason)
     }
 
     /// Every part that some rule did not verify, with the rules and reasons.

@@ -6,6 +6,8 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::watched::watched;
 
 use super::error::GenerateError;
 use super::robot::{Generated, generate};
@@ -63,8 +65,9 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
         let progress = observer.begin(job);
         let target = folder.join(&job.name);
         let own = Settings { source: job.settings(&settings.source), ..settings.clone() };
-        let make = |own: &Settings| generate(&job.source, &target, own, &*progress);
-        let outcome = watched(&job.source, &own, make);
+        let source = job.source.clone();
+        let make = move |own: &Settings| generate(&source, &target, own, &*progress);
+        let outcome = within_limits(&job.source, &own, make);
         let failed = usize::from(outcome.is_err());
         let mut waiting = waiting.lock().unwrap_or_else(PoisonError::into_inner);
         let (next, outcomes) = &mut *waiting;
@@ -85,19 +88,20 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
 ///
 /// # Errors
 /// Those of [`caught`]; [`GenerateError::Limit`] for a robot beyond its limits.
-pub fn watched<T>(
+pub fn within_limits<T: Send + 'static>(
     source: &Path,
     settings: &Settings,
-    make: impl FnOnce(&Settings) -> Result<T, GenerateError>,
+    make: impl FnOnce(&Settings) -> Result<T, GenerateError> + Send + 'static,
 ) -> Result<T, GenerateError> {
-    let robot = settings.source.cancellation.robot(&source.display().to_string());
-    let mut settings = settings.clone();
-    settings.source.cancellation = robot.clone();
-    let made = caught(source, || make(&settings));
-    match robot.limit() {
-        Some(limit) => Err(GenerateError::Limit { file: source.display().to_string(), limit }),
-        None => made,
-    }
+    let (own, mut settings) = (source.to_owned(), settings.clone());
+    let run = settings.source.cancellation.clone();
+    let file = source.display().to_string();
+    let work = move |cancellation: &Cancellation| {
+        settings.source.cancellation = cancellation.clone();
+        caught(&own, || make(&settings))
+    };
+    watched(&run, &file, work)
+        .unwrap_or_else(|limit| Err(GenerateError::Limit { file: file.clone(), limit }))
 }
 
 /// Runs `make` for a source and turns a panic into an error.

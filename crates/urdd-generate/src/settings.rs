@@ -124,7 +124,7 @@ impl Default for Settings {
 }
 
 /// Receives the progress of a run.
-pub trait Progress: Sync {
+pub trait Progress: Send + Sync {
     /// A module is started; `done` of `total` modules are finished.
     fn module(&self, kind: ModuleKind, done: usize, total: usize);
 

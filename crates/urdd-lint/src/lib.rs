@@ -31,9 +31,11 @@ pub use settings::{LintSettings, declared};
 pub use sources::{LintError, Undeclared, lint_undeclared, seen_from, undeclared};
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use rayon::prelude::*;
-use urdd_directory::cancellation::Cancelled;
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_directory::watched::watched;
 use urdd_findings::check::Examined;
 use urdd_findings::run::Run;
 use urdd_format::index::Count;
@@ -59,12 +61,26 @@ pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError
         true => Found::InFolder,
         false => Found::Named,
     };
-    let lint = |job: &Job| lint_file(job, is_found(job), paths, settings);
-    let linted: Vec<Option<Linted>> = match settings.source.cancellation.is_watched() {
+    let run = &settings.source.cancellation;
+    let given: Arc<[PathBuf]> = paths.into();
+    let lint = |job: &Job| {
+        let seen = seen_from(&job.source, &given);
+        let (own, found, given) = (job.clone(), is_found(job), Arc::clone(&given));
+        let mut settings = settings.clone();
+        let work = move |cancellation: &Cancellation| {
+            settings.source.cancellation = cancellation.clone();
+            lint_file(&own, found, &given, &settings)
+        };
+        watched(run, &seen, work).unwrap_or_else(|limit| {
+            let examined = Examined::beyond(limit, Kind::Urdf, &seen);
+            Some(Linted { examined, stale: Vec::new(), text: None })
+        })
+    };
+    let linted: Vec<Option<Linted>> = match run.is_watched() {
         true => jobs.iter().map(lint).collect(),
         false => jobs.par_iter().map(lint).collect(),
     };
-    settings.source.cancellation.check()?;
+    run.check()?;
     let parts = linted.iter().filter(|one| one.is_none()).count();
     let linted = jobs.into_iter().zip(linted).filter_map(|(job, one)| Some((job.source, one?)));
     let (files, linted): (Vec<PathBuf>, Vec<Linted>) = linted.unzip();
@@ -131,14 +147,11 @@ fn lint_file(
     given: &[PathBuf],
     settings: &LintSettings,
 ) -> Option<Linted> {
-    let mut settings = LintSettings { source: job.settings(&settings.source), ..settings.clone() };
-    let run = settings.source.cancellation.clone();
+    let settings = &LintSettings { source: job.settings(&settings.source), ..settings.clone() };
     let path = job.source.as_path();
     let seen = seen_from(path, given);
     let (mut stale, mut text, mut is_part) = (Vec::new(), None, false);
-    let mut examined = Examined::watched::<SourceError>(Kind::Urdf, &seen, &run, |cancellation| {
-        settings.source.cancellation = cancellation.clone();
-        let settings = &settings;
+    let mut examined = Examined::caught::<SourceError>(Kind::Urdf, &seen, || {
         let (mut examined, unused) = match import(path, &settings.source)? {
             Some(imported) => {
                 let examined = examined_import(&imported, stems(path), settings)?;

@@ -71,6 +71,7 @@ use urdd_directory::discover::{DiscoverError, Found, discover};
 use urdd_directory::file_type::RobotFile;
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::Source;
+use urdd_directory::watched::watched;
 use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
 use urdd_findings::check::Examined;
@@ -122,16 +123,23 @@ pub fn validate_with<P: AsRef<Path>>(
     let excluded = excluded - all.len();
     let kept = places::of_each(all.len());
     let run = &settings.cancellation;
+    let all_rules: Arc<[&'static Rule]> = rules.into();
     let one = |(kind, found): &(Kind, Found)| {
-        let examine = |cancellation: &Cancellation| match (kind, &found.closed) {
-            (Kind::Urdf, _) => engine::examine_urdf_file(found, rules),
-            (Kind::Urdd, Some(error)) => Err(error.clone()),
-            (Kind::Urdd, None) => {
-                let settings = Settings { cancellation: cancellation.clone(), ..settings.clone() };
-                Ok(examine(Urdd::read(&found.path)?, &found.name, &settings, rules))
-            }
+        let (kind, own, settings) = (*kind, found.clone(), settings.clone());
+        let rules = Arc::clone(&all_rules);
+        let work = move |cancellation: &Cancellation| {
+            let settings = Settings { cancellation: cancellation.clone(), ..settings };
+            Examined::caught(kind, &own.name, || match (kind, &own.closed) {
+                (Kind::Urdf, _) => engine::examine_urdf_file(&own, &rules),
+                (Kind::Urdd, Some(error)) => Err(error.clone()),
+                (Kind::Urdd, None) => {
+                    Ok(examine(Urdd::read(&own.path)?, &own.name, &settings, &rules))
+                }
+            })
         };
-        let mut examined = Examined::watched(*kind, &found.name, run, examine);
+        let examined = watched(run, &found.name, work);
+        let mut examined =
+            examined.unwrap_or_else(|limit| Examined::beyond(limit, kind, &found.name));
         places::trim(&mut examined.checks, kept);
         examined
     };

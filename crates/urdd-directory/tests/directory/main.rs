@@ -27,6 +27,7 @@ mod text_bad_input;
 mod text_fault;
 mod text_yaml;
 mod toml_text;
+mod watched;
 mod yaml_places;
 mod yaml_scalar;
 mod yaml_transcript;
