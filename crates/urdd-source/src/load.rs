@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::file_type::{self, FileType};
+use urdd_directory::limits::Account;
 use urdd_directory::path;
 use urdd_format::urdf::UrdfModule;
 use urdd_xml::Xml;
@@ -14,7 +15,7 @@ use crate::decode::{Decoded, Decoding, Original, Repaired, decode, mend_xml};
 use crate::error::SourceError;
 use crate::fault::{Fault, PlacedFault};
 use crate::files::{Files, MAX_SOURCE_BYTES};
-use crate::loops::{self, Said};
+use crate::loops::{self, CostlyElement, Said};
 use crate::note::{Note, Remark, SourcePlace};
 use crate::settings::Settings;
 use crate::suggested::deciding;
@@ -361,10 +362,21 @@ fn mend<T>(
                 vec![unknown; offsets.len()]
             }
         };
-        let plus = xml.document().ok();
-        let plus = plus.and_then(|document| {
-            loops::placed_urdf_plus(document.root_element(), places_of, &mut notes)
-        });
+        let plus = match xml.document() {
+            Ok(document) => {
+                let account = Account::default();
+                account.deposit(xml.text().len());
+                let robot = document.root_element();
+                let plus = loops::placed_urdf_plus(robot, &places_of, &mut notes, &account);
+                plus.map_err(|CostlyElement { offset, error }| {
+                    let place = places_of(vec![offset]).pop();
+                    let (line, column) = place.as_ref().map_or((1, 1), |at| (at.line, at.column));
+                    let file = place.map_or_else(|| shown.clone(), |at| at.file);
+                    SourceError::Import { file, line, column, fault: error.to_string() }
+                })?
+            }
+            Err(_) => None,
+        };
         let also = also(xml, is_verbatim);
         let source = Source {
             folder: read.folder.clone(),

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::model::{Placeable, Placed, Spheres};
 use super::samples::Sample;
+use urdd_directory::limits::{Account, Overdrawn};
 use urdd_format::rate::interval;
 
 /// Allowed rates of missed collisions, and of false contacts in free configurations.
@@ -80,13 +81,39 @@ pub fn gaps(
     samples.par_iter().map_init(Placed::default, gap).collect()
 }
 
+/// Pairs of spheres of two links that are looked at for nothing: it takes as long as to measure two pieces.
+const FREE: usize = 256;
+
+/// Two links whose spheres take more work than the account has.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CostlyPair {
+    pub links: [usize; 2],
+    pub error: Overdrawn,
+}
+
 /// Of each sample, the indices of the pairs in contact by spheres, ascending.
-pub fn touching(spheres: &Spheres, pairs: &[[usize; 2]], samples: &[Sample]) -> Vec<Vec<u32>> {
+///
+/// # Errors
+/// If spheres of two links are so many, and so near each other, that the account does not have what it takes.
+pub fn touching(
+    spheres: &Spheres,
+    pairs: &[[usize; 2]],
+    samples: &[Sample],
+    account: &Account,
+) -> Result<Vec<Vec<u32>>, CostlyPair> {
     let model = Placeable::new(spheres);
     let touching = |placed: &mut Placed, sample: &Sample| {
         model.place(sample, placed);
-        let pairs = (0u32..).zip(pairs);
-        pairs.filter(|(_, pair)| model.touches(sample, placed, **pair)).map(|(k, _)| k).collect()
+        let mut touching = Vec::new();
+        for (number, links) in (0u32..).zip(pairs) {
+            let (touches, steps) = model.touches(sample, placed, *links);
+            if let Some(steps) = steps.checked_sub(FREE) {
+                let costly = |error| CostlyPair { links: *links, error };
+                account.charge(steps).map_err(costly)?;
+            }
+            touching.extend(touches.then_some(number));
+        }
+        Ok(touching)
     };
     samples.par_iter().map_init(Placed::default, touching).collect()
 }
@@ -118,7 +145,7 @@ pub fn faults(
         model.place(sample, &mut placed);
         let touching: Vec<usize> = checked(pairs, ignored)
             .into_iter()
-            .filter(|(_, pair)| model.touches(sample, &mut placed, *pair))
+            .filter(|(_, pair)| model.touches(sample, &placed, *pair).0)
             .map(|(number, _)| number)
             .collect();
         match (sample.collides(), touching.is_empty()) {

@@ -6,7 +6,7 @@ pub mod places;
 pub mod scalar;
 /// Reads a YAML file of another program.
 pub mod words {
-    pub use super::places::{WordsFault, read_words as read};
+    pub use super::places::{Words, WordsFault, read_words as read};
 }
 
 use std::collections::HashSet;

@@ -8,7 +8,7 @@ pub(super) mod curobo;
 pub(super) mod import;
 pub(super) mod said;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use nalgebra::Isometry3;
 
@@ -136,10 +136,11 @@ impl Level {
 
     /// Marks the pairs that a check by this level leaves out.
     fn mark_ignored(&self, pairs: &Pairs, ignored: &mut [bool]) {
+        let own = self.level.ignored_pairs.iter();
+        let own: HashSet<[usize; 2]> =
+            own.map(|of| [of.link_a_idx.get(), of.link_b_idx.get()]).collect();
         for (pair, ignored) in pairs.checked.iter().zip(ignored) {
-            let links = pair.map(|link| pairs.links[link]);
-            let mut own = self.level.ignored_pairs.iter();
-            *ignored = own.any(|of| [of.link_a_idx.get(), of.link_b_idx.get()] == links);
+            *ignored = own.contains(&pair.map(|link| pairs.links[link]));
         }
     }
 

@@ -76,7 +76,8 @@ pub fn bodies(
     let mut couplings = Charged::default();
     for outside in gearboxes {
         let place = scene.nodes[scene.joints[outside.joint].node].place;
-        if let Some(coupled) = gearbox(&scene, frames, outside, &at, (&made, &poses), tally)? {
+        let known = (&*made, &*poses);
+        if let Some(coupled) = gearbox(&scene, frames, outside, &at, known, tally, account)? {
             couplings.push(coupled, account).at(place)?;
         }
     }

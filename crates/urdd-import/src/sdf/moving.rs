@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use urdd_directory::limits::Account;
 use urdd_format::loops::LoopKind;
 use urdd_format::short::Short;
 use urdd_kinematics::rotation::from_z;
@@ -17,7 +18,7 @@ use crate::fault::SdfFault;
 use crate::features::{self, Tally};
 use crate::graph::{limits, say_closed};
 use crate::model::{Body, Closing, Coupled, End, Joint as Moving, JointKind, Mimic};
-use crate::place::{Fallible, at};
+use crate::place::{Fallible, Placing, at};
 
 /// A joint and its links; the number of links means the world.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -229,6 +230,8 @@ pub fn closing(
 const PARALLEL: f64 = 1e-9;
 /// Bodies between two links; what has more is left out.
 const LONGEST: usize = 1000;
+/// What each of these costs.
+const STEP: usize = 20;
 
 /// The equation of a gearbox. `at` has the body of each link, and of the world behind them; `poses` are those of the bodies.
 /// `None`, with a remark, where joints turn about other axes.
@@ -239,6 +242,7 @@ pub fn gearbox(
     at: &[Option<usize>],
     (bodies, poses): (&[Body], &[Isometry3<f64>]),
     tally: &mut Tally,
+    account: &Account,
 ) -> Fallible<Option<Coupled>> {
     let joint = &scene.joints[outside.joint];
     let node = &scene.nodes[joint.node];
@@ -270,18 +274,21 @@ pub fn gearbox(
         let named = Short::of(named);
         return lost(&format!("there is no link `{named}`, its reference body, in the robot"));
     }
-    let sum = || {
+    let mut steps = 0;
+    let mut sum = || {
         let (reference, parent, child) = (reference?, body(outside.parent)?, body(outside.child)?);
         let mut terms = BTreeMap::new();
         let (first, second) = (axes.first()?, axes.last()?);
-        turned(bodies, poses, [reference, parent], first, ratio, &mut terms)?;
-        turned(bodies, poses, [reference, child], second, 1.0, &mut terms)?;
+        turned(bodies, poses, [reference, parent], first, ratio, (&mut terms, &mut steps))?;
+        turned(bodies, poses, [reference, child], second, 1.0, (&mut terms, &mut steps))?;
         terms.retain(|_, factor| *factor != 0.0);
         let terms: Vec<_> =
             terms.into_iter().map(|(name, of)| (name.to_owned(), vec![of])).collect();
         (!terms.is_empty()).then_some(terms)
     };
-    let Some(terms) = sum() else {
+    let terms = sum();
+    account.charge(STEP * steps).at(node.place)?;
+    let Some(terms) = terms else {
         return lost(
             "between its links and the reference body there is nothing that turns about its axes alone",
         );
@@ -312,7 +319,7 @@ fn turned<'b>(
     [from, to]: [usize; 2],
     axis: &Vector3<f64>,
     factor: f64,
-    terms: &mut BTreeMap<&'b str, f64>,
+    (terms, all_steps): (&mut BTreeMap<&'b str, f64>, &mut usize),
 ) -> Option<()> {
     let axis = axis.try_normalize(0.0)?;
     let (mut from, mut to) = (from, to);
@@ -320,6 +327,7 @@ fn turned<'b>(
     // A parent is before its children.
     while from != to {
         steps += 1;
+        *all_steps += 1;
         if steps > LONGEST {
             return None;
         }
