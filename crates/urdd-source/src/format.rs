@@ -4,9 +4,9 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use urdd_directory::account::Account;
 use urdd_directory::file_type::FileType;
 use urdd_directory::file_type::HEAD;
-use urdd_directory::limits::Account;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_usd::{Door, outline};
 use urdd_xml::{Mended, parse_leniently};

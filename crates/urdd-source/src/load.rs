@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use urdd_directory::cancellation::Cancellation;
+use urdd_directory::account::{Account, AccountError};
 use urdd_directory::file_type::{self, FileType};
-use urdd_directory::limits::Account;
 use urdd_directory::path;
 use urdd_format::urdf::UrdfModule;
 use urdd_xml::Xml;
@@ -63,12 +62,8 @@ impl Source {
 ///
 /// # Errors
 /// If it cannot be read or is not a valid robot.
-pub fn load(
-    path: &Path,
-    settings: &Settings,
-    cancellation: &Cancellation,
-) -> Result<Source, SourceError> {
-    Ok(load_with(path, settings, cancellation, |_, _| ())?.0)
+pub fn load(path: &Path, settings: &Settings) -> Result<Source, SourceError> {
+    Ok(load_with(path, settings, |_, _| ())?.0)
 }
 
 /// As [`load`]; `also` reads the text that a URDD carries, too. It is given whether that is the file as it was found.
@@ -78,11 +73,10 @@ pub fn load(
 pub fn load_with<T>(
     path: &Path,
     settings: &Settings,
-    cancellation: &Cancellation,
     also: impl FnOnce(&Xml<'_>, bool) -> T,
 ) -> Result<(Source, T), SourceError> {
     let mut notes = Vec::new();
-    let read = read(path, settings, cancellation, &mut notes)?;
+    let read = read(path, settings, &mut notes)?;
     let said = loops::beside(path, settings)?;
     with_loops(read, said, settings, notes, also)
 }
@@ -101,7 +95,9 @@ fn with_loops<T>(
         read.is_verbatim &= text == read.text;
         read.text = text;
     }
-    let (mut source, also) = mend(&Xml::new(&read.text), &read, notes, also)?;
+    let account = Account::new(&settings.cancellation);
+    account.deposit(read.bytes.len());
+    let (mut source, also) = mend(&Xml::new(&read.text), (&read, &account), notes, also)?;
     let Some(said) = said else { return Ok((source, also)) };
     source.notes.extend(said.notes.iter().cloned());
     // A file that is named in the settings is chosen by a person.
@@ -136,12 +132,8 @@ impl SourceText {
 ///
 /// # Errors
 /// If it cannot be read or expanded.
-pub fn read_source(
-    path: &Path,
-    settings: &Settings,
-    cancellation: &Cancellation,
-) -> Result<SourceText, SourceError> {
-    let read = read(path, settings, cancellation, &mut Vec::new())?;
+pub fn read_source(path: &Path, settings: &Settings) -> Result<SourceText, SourceError> {
+    let read = read(path, settings, &mut Vec::new())?;
     let is_same = read.trail.is_some() || read.bytes == read.text.as_bytes();
     Ok(SourceText {
         original: (!is_same).then_some(Original { bytes: read.bytes, decoding: read.decoding }),
@@ -169,12 +161,7 @@ struct Read {
 }
 
 /// Decodes the bytes of a file, and expands them where they are macros.
-fn read(
-    path: &Path,
-    settings: &Settings,
-    cancellation: &Cancellation,
-    notes: &mut Vec<Note>,
-) -> Result<Read, SourceError> {
+fn read(path: &Path, settings: &Settings, notes: &mut Vec<Note>) -> Result<Read, SourceError> {
     let shown = path.display().to_string();
     let bytes = settings.files.read(path, MAX_SOURCE_BYTES);
     let bytes = bytes.map_err(|why| SourceError::unread(&shown, why))?;
@@ -188,7 +175,7 @@ fn read(
     let (text, trail) = match (is_expanded, &settings.files) {
         (true, Files::Disk) => {
             let (xacro, packages) = (&settings.xacro, &settings.packages);
-            let expanded = xacro::expand(path, &shown, xacro, packages, cancellation);
+            let expanded = xacro::expand(path, &shown, xacro, packages, &settings.cancellation);
             let (text, trail) = expanded.map_err(|error| explained(error, path, settings))?;
             (text, Some(trail))
         }
@@ -276,9 +263,11 @@ fn in_memory(
 ) -> Result<Source, SourceError> {
     let mut notes = Vec::new();
     let read = held(bytes, shown, folder, stem, &mut notes)?;
+    let account = Account::default();
+    account.deposit(read.bytes.len());
     let loaded = match known.filter(|known| known.text() == read.text) {
-        Some(xml) => mend(xml, &read, notes, |_, _| ()),
-        None => mend(&Xml::new(&read.text), &read, notes, |_, _| ()),
+        Some(xml) => mend(xml, (&read, &account), notes, |_, _| ()),
+        None => mend(&Xml::new(&read.text), (&read, &account), notes, |_, _| ()),
     };
     Ok(loaded?.0)
 }
@@ -320,7 +309,7 @@ pub fn read_urdf(bytes: &[u8], name: &str) -> Result<SourceRobot, SourceError> {
 /// Reads a robot, and repairs its text until both match.
 fn mend<T>(
     found: &Xml<'_>,
-    read: &Read,
+    (read, account): (&Read, &Account),
     mut notes: Vec<Note>,
     also: impl FnOnce(&Xml<'_>, bool) -> T,
 ) -> Result<(Source, T), SourceError> {
@@ -364,15 +353,16 @@ fn mend<T>(
         };
         let plus = match xml.document() {
             Ok(document) => {
-                let account = Account::default();
-                account.deposit(xml.text().len());
                 let robot = document.root_element();
-                let plus = loops::placed_urdf_plus(robot, &places_of, &mut notes, &account);
-                plus.map_err(|CostlyElement { offset, error }| {
-                    let place = places_of(vec![offset]).pop();
-                    let (line, column) = place.as_ref().map_or((1, 1), |at| (at.line, at.column));
-                    let file = place.map_or_else(|| shown.clone(), |at| at.file);
-                    SourceError::Import { file, line, column, fault: error.to_string() }
+                let plus = loops::placed_urdf_plus(robot, &places_of, &mut notes, account);
+                plus.map_err(|CostlyElement { offset, error }| match error {
+                    AccountError::Cancelled(cancelled) => cancelled.into(),
+                    AccountError::Overdrawn(error) => {
+                        let place = places_of(vec![offset]).pop();
+                        let (line, column) = place.as_ref().map_or((1, 1), |at| (at.line, at.column));
+                        let file = place.map_or_else(|| shown.clone(), |at| at.file);
+                        SourceError::Import { file, line, column, fault: error.to_string() }
+                    }
                 })?
             }
             Err(_) => None,

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::model::{Placeable, Placed, Spheres};
 use super::samples::Sample;
-use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::account::{Account, AccountError};
 use urdd_format::rate::interval;
 
 /// Allowed rates of missed collisions, and of false contacts in free configurations.
@@ -88,7 +88,7 @@ const FREE: usize = 256;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CostlyPair {
     pub links: [usize; 2],
-    pub error: Overdrawn,
+    pub error: AccountError,
 }
 
 /// Of each sample, the indices of the pairs in contact by spheres, ascending.

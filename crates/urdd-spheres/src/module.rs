@@ -14,8 +14,8 @@ use crate::judge::{SphereRates, touching};
 use crate::model::{Sphere, Spheres};
 use crate::samples::{Ask, Moves, Pairs, Region, Sampler};
 use crate::surface::Pieces;
-use urdd_directory::cancellation::{Cancellation, Cancelled};
-use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::account::{Account, AccountError, Overdrawn};
+use urdd_directory::cancellation::Cancelled;
 use urdd_format::index::{Count, LevelIdx, LinkIdx, SphereIdx};
 use urdd_format::link_shapes_spheres::{
     LinkShapesSpheresModule, LinkSphere, SPHERES_FIRST, SphereEvaluation, SphereLevel, SphereOrigin,
@@ -47,6 +47,15 @@ pub enum NoSpheres<E> {
     Costly(Vec<usize>, Overdrawn),
     /// It was cancelled.
     Cancelled(Cancelled),
+}
+
+impl<E> NoSpheres<E> {
+    fn of_account(links: &[usize], error: AccountError) -> Self {
+        match error {
+            AccountError::Overdrawn(error) => NoSpheres::Costly(links.to_vec(), error),
+            AccountError::Cancelled(cancelled) => NoSpheres::Cancelled(cancelled),
+        }
+    }
 }
 
 impl<E> From<Cancelled> for NoSpheres<E> {
@@ -85,10 +94,9 @@ struct Made {
 pub fn module<R: Moves>(
     subject: &Subject<R>,
     account: &Account,
-    cancellation: &Cancellation,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<LinkShapesSpheresModule, NoSpheres<R::Error>> {
-    let pairs = subject.pairs;
+    let (pairs, cancellation) = (subject.pairs, account.cancellation());
     let samples = samples(pairs);
     let steps = 3;
     progress(0, steps);
@@ -105,7 +113,7 @@ pub fn module<R: Moves>(
         .collect::<Result<Vec<Pieces>, _>>()?;
     cancellation.check()?;
     progress(2, steps);
-    let contacts = contacts(subject, &levels, samples, (account, cancellation))?;
+    let contacts = contacts(subject, &levels, samples, account)?;
     cancellation.check()?;
     let levels = levels.iter().zip(contacts);
     let levels =
@@ -192,14 +200,14 @@ fn contacts<R: Moves>(
     subject: &Subject<R>,
     levels: &[Made],
     samples: usize,
-    (account, cancellation): (&Account, &Cancellation),
+    account: &Account,
 ) -> Result<Vec<Found>, NoSpheres<R::Error>> {
     let pairs = subject.pairs;
     let all: Vec<[usize; 2]> = all_pairs(pairs.links.len()).collect();
     let sampler = Sampler { robot: subject.robot, pairs };
     let mut known = Vec::with_capacity(samples);
     while known.len() < samples {
-        cancellation.check()?;
+        account.cancellation().check()?;
         let first = u64::from(SPHERES_FIRST) + known.len() as u64;
         let count = AT_ONCE.min(samples - known.len());
         let next = sampler.samples(Region::Bounds, first, count, Ask::Any);
@@ -217,8 +225,7 @@ fn contacts<R: Moves>(
             })
             .collect();
         let touching = touching(&spheres, &all, &known, account).map_err(|costly| {
-            let links = costly.links.map(|link| pairs.links[link]);
-            NoSpheres::Costly(links.to_vec(), costly.error)
+            NoSpheres::of_account(&costly.links.map(|link| pairs.links[link]), costly.error)
         })?;
         let mut found = Found { contacts: vec![0; all.len()], rates: SphereRates::default() };
         for (sample, touching) in known.iter().zip(touching) {
@@ -249,7 +256,7 @@ fn written<R: Moves>(
         .map(|((own, pieces), link)| {
             let own: Vec<Sphere> = own.iter().map(|(sphere, _)| *sphere).collect();
             let fit = (!own.is_empty()).then(|| pieces.fit(&own, account)).transpose();
-            fit.map_err(|error| NoSpheres::Costly(vec![*link], error))
+            fit.map_err(|error| NoSpheres::of_account(&[*link], error))
         })
         .collect::<Result<_, _>>()?;
     for ((link, own), fit) in pairs.links.iter().zip(&level.links).zip(figures) {

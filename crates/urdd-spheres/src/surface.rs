@@ -10,7 +10,7 @@ use nalgebra::Isometry3;
 use crate::frame::{Point, add, dot, norm, scaled, sub};
 use crate::model::Sphere;
 use crate::tree::{SphereTree, bits};
-use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::account::{Account, AccountError};
 use urdd_format::link_shapes_spheres::SphereFit;
 use urdd_geometry::Mesh;
 use urdd_geometry::bounding_sphere::{BoundingSphere, about};
@@ -102,7 +102,7 @@ const PARTS: f64 = 15.7;
 const FREE: usize = 128;
 
 /// Charges the spheres that were looked at for a point.
-fn charge(steps: usize, account: &Account) -> Result<(), Overdrawn> {
+fn charge(steps: usize, account: &Account) -> Result<(), AccountError> {
     account.charge(steps.saturating_sub(FREE))
 }
 
@@ -163,7 +163,7 @@ impl Pieces {
     ///
     /// # Errors
     /// If so many of them are around the same points that the account does not have what it takes.
-    pub fn fit(&self, spheres: &[Sphere], account: &Account) -> Result<SphereFit, Overdrawn> {
+    pub fn fit(&self, spheres: &[Sphere], account: &Account) -> Result<SphereFit, AccountError> {
         let (mut most, mut sum, mut weights) = (0.0f64, 0.0, 0.0);
         let tree = SphereTree::new(spheres);
         // Equal spheres are measured once.

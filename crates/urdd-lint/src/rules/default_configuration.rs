@@ -1,8 +1,8 @@
 use std::cell::LazyCell;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use nalgebra::Isometry3;
-use urdd_directory::limits::Account;
+use urdd_directory::account::Account;
 use urdd_directory::loops_toml::{File, FrameTable};
 use urdd_document::pose::unit;
 use urdd_document::robot::{Joint, Robot};
@@ -280,7 +280,7 @@ fn self_collision_in_default(urdf: &Subject, findings: &mut Findings) -> Option<
 const MEET: f64 = 1e-6;
 
 fn closed_chain(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    let account = Account::default();
+    let account = Account::new(&urdf.settings.source.cancellation);
     account.deposit(urdf.root.document().input_text().len());
     // What costs too much is an error of the source.
     let of_urdf = urdf_plus(urdf.root, &account).ok()?.map_or_else(Vec::new, |(_, faults)| faults);

@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use toml::Spanned;
+use urdd_directory::account::{Account, AccountError};
 use urdd_directory::export_toml::unplaced;
-use urdd_directory::limits::{Account, Overdrawn};
 use urdd_directory::loops_toml::{CouplingTable, FrameTable, LoopTable, kind_of};
 use urdd_format::loops::LoopKind;
 use urdd_format::short::Short;
@@ -37,7 +37,7 @@ pub struct CostlyElement {
     /// Where it begins, byte offset.
     pub offset: usize,
     /// Why.
-    pub error: Overdrawn,
+    pub error: AccountError,
 }
 
 /// Charged for a joint between two links of a coupling: what is made of the term, here and in all that reads it.
@@ -157,7 +157,7 @@ struct Tree<'a> {
 
 enum Refused {
     Fault(LoopFault),
-    Costly(Overdrawn),
+    Costly(AccountError),
 }
 
 impl From<LoopFault> for Refused {
@@ -166,8 +166,8 @@ impl From<LoopFault> for Refused {
     }
 }
 
-impl From<Overdrawn> for Refused {
-    fn from(error: Overdrawn) -> Self {
+impl From<AccountError> for Refused {
+    fn from(error: AccountError) -> Self {
         Refused::Costly(error)
     }
 }
