@@ -268,9 +268,9 @@ impl JointNames {
             // Gazebo's own converter.
             Format::Sdf => {
                 let mut links = Taken::new(links());
-                links.0.insert("world".to_owned());
-                let mut taken = Taken::new(links.0.iter().chain(own()));
-                for name in joints.iter_mut().filter(|name| links.0.contains(*name)) {
+                links.insert("world");
+                let mut taken = Taken::new(links.0.keys().chain(own()));
+                for name in joints.iter_mut().filter(|name| links.0.contains_key(*name)) {
                     *name = taken.free(format!("{name}_joint"));
                 }
                 taken

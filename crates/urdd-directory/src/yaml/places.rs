@@ -187,7 +187,7 @@ pub struct WordsFault {
 }
 
 impl WordsFault {
-    fn new(at: Marker, reason: impl Into<String>) -> Self {
+    pub(super) fn new(at: Marker, reason: impl Into<String>) -> Self {
         WordsFault { line: at.line(), column: at.col() + 1, reason: reason.into() }
     }
 }

@@ -406,7 +406,8 @@ impl Terms {
     pub(super) fn add(&mut self, dof_idx: DofIdx, coefficients: [f64; 4], sizes: Option<[f64; 4]>) {
         let sizes = sizes.unwrap_or_else(|| coefficients.map(f64::abs));
         let Some(sums) = self.terms.get_mut(&dof_idx) else {
-            return _ = self.terms.insert(dof_idx, [coefficients, sizes]);
+            self.terms.insert(dof_idx, [coefficients, sizes]);
+            return;
         };
         for place in 0..4 {
             sums[0][place] += coefficients[place];
