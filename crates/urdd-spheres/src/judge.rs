@@ -81,8 +81,9 @@ pub fn gaps(
     samples.par_iter().map_init(Placed::default, gap).collect()
 }
 
-/// Pairs of spheres of two links that are looked at for nothing: it takes as long as to measure two pieces.
-const FREE: usize = 256;
+/// Pairs of spheres of two links that are looked at for nothing in a sample: some microseconds, as the pieces of two links
+/// take. Of lists that people have, fewer are.
+const FREE: usize = 2048;
 
 /// Two links whose spheres take more work than the account has.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -106,16 +107,51 @@ pub fn touching(
         model.place(sample, placed);
         let mut touching = Vec::new();
         for (number, links) in (0u32..).zip(pairs) {
-            let (touches, steps) = model.touches(sample, placed, *links);
-            if let Some(steps) = steps.checked_sub(FREE) {
-                let costly = |error| CostlyPair { links: *links, error };
-                account.charge(steps).map_err(costly)?;
-            }
+            let touches = charged(&model, (sample, placed), *links, account)?;
             touching.extend(touches.then_some(number));
         }
         Ok(touching)
     };
     samples.par_iter().map_init(Placed::default, touching).collect()
+}
+
+/// Of each sample, whether a pair that is not ignored is in contact by spheres.
+///
+/// # Errors
+/// Those of [`touching`].
+pub fn any_touching(
+    spheres: &Spheres,
+    pairs: &[[usize; 2]],
+    ignored: &[bool],
+    samples: &[Sample],
+    account: &Account,
+) -> Result<Vec<bool>, CostlyPair> {
+    let model = Placeable::new(spheres);
+    let checked = checked(pairs, ignored);
+    let touches = |placed: &mut Placed, sample: &Sample| {
+        model.place(sample, placed);
+        for (_, links) in &checked {
+            if charged(&model, (sample, placed), *links, account)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    };
+    samples.par_iter().map_init(Placed::default, touches).collect()
+}
+
+/// Whether spheres of two links touch.
+fn charged(
+    model: &Placeable,
+    (sample, placed): (&Sample, &Placed),
+    links: [usize; 2],
+    account: &Account,
+) -> Result<bool, CostlyPair> {
+    let (touches, steps) = model.touches(sample, placed, links);
+    if let Some(steps) = steps.checked_sub(FREE) {
+        account.charge(steps).map_err(|error| CostlyPair { links, error })?;
+    }
+    Ok(touches)
 }
 
 fn checked(pairs: &[[usize; 2]], ignored: &[bool]) -> Vec<(usize, [usize; 2])> {

@@ -61,7 +61,8 @@ impl<'a> Placeable<'a> {
         if !self.may_be_near(placed, links, 0.0) {
             return (false, 0);
         }
-        let tree = |link: usize| self.trees[link].get_or_init(|| SphereTree::new(&self.spheres[link]));
+        let tree =
+            |link: usize| self.trees[link].get_or_init(|| SphereTree::new(&self.spheres[link]));
         let ([a, b], [p, q]) = (links.map(tree), links.map(|link| &sample.poses[link]));
         a.touches(p, b, q)
     }

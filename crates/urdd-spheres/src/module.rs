@@ -116,8 +116,7 @@ pub fn module<R: Moves>(
     let contacts = contacts(subject, &levels, samples, account)?;
     cancellation.check()?;
     let levels = levels.iter().zip(contacts);
-    let levels =
-        levels.map(|(level, found)| written(subject, level, &pieces, &found, account));
+    let levels = levels.map(|(level, found)| written(subject, level, &pieces, &found, account));
     let levels = levels.collect::<Result<_, _>>()?;
     progress(steps, steps);
     Ok(LinkShapesSpheresModule { levels, num_samples: Count::saturating(samples) })

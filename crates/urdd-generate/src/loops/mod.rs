@@ -1,11 +1,11 @@
 //! `loops_module`: SPEC 6.8.
 
 mod closed;
+mod names;
 mod resolved;
 
 use std::ops::Range;
 
-use self::resolved::Names;
 use crate::error::{GenerateError, Result};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::bounds::BoundsModule;
@@ -41,7 +41,7 @@ impl Made<'_> {
             return Ok((None, Vec::new()));
         };
         let mut notes = Vec::new();
-        let known = Names::of(self.chain, self.dof);
+        let known = self.names();
         let mut module = self.resolved(said, &known, &mut notes)?;
         if module.loops.is_empty() && module.couplings.is_empty() {
             return Ok((None, notes));

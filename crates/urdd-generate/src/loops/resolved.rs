@@ -1,20 +1,17 @@
 //! What a source says of loops, by the robot's indices; and the terms of a coupling, added up.
 
-use std::cell::Cell;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 
 use toml::Spanned;
 
 use super::Made;
+use super::names::Names;
 use crate::error::{Result, first_names};
 use urdd_directory::export_toml::Name;
 use urdd_directory::loops_toml::{CouplingTable, FrameTable, LoopTable};
-use urdd_format::chain::ChainModule;
-use urdd_format::dof::DofModule;
-use urdd_format::index::{DofIdx, LinkIdx};
+use urdd_format::index::DofIdx;
 use urdd_format::loops::{Coupling, CouplingTerm, Loop, LoopsModule};
-use urdd_format::nearest::nearest;
 use urdd_format::short::Short;
 use urdd_format::urdf::JointType;
 use urdd_kinematics::loops::{Loops, Mobility};
@@ -24,58 +21,6 @@ use urdd_source::note::{Note, NoteKind};
 
 /// A place in the source, and what is wrong there.
 type Faulty = (Range<usize>, String);
-
-/// What names stand for.
-pub(super) struct Names<'a> {
-    /// Links, and for the name of a joint that no link has, the joint's child: Extended URDF means that.
-    links: HashMap<&'a str, LinkIdx>,
-    /// Joints, by their place in the chain.
-    joints: HashMap<&'a str, usize>,
-    /// DOFs: of the DOF of this name, or all of the joint.
-    dofs: HashMap<&'a str, Vec<usize>>,
-    /// How many names that nothing has were compared with all others.
-    compared: Cell<usize>,
-}
-
-/// How many are: each takes as long as there are names.
-const MOST_COMPARED: usize = 20;
-
-impl<'a> Names<'a> {
-    pub(super) fn of(chain: &'a ChainModule, dof: &'a DofModule) -> Self {
-        let mut names = Names {
-            links: HashMap::new(),
-            joints: HashMap::new(),
-            dofs: HashMap::new(),
-            compared: Cell::new(0),
-        };
-        let links = chain.links_in_chain.iter().map(|link| link.name.as_str());
-        names.links.extend(links.zip((0..).map(LinkIdx)));
-        for (place, joint) in chain.joints_in_chain.iter().enumerate() {
-            names.joints.entry(&joint.joint_name).or_insert(place);
-            names.links.entry(&joint.joint_name).or_insert(joint.child_link_idx);
-        }
-        for (idx, of) in dof.dofs.iter().enumerate() {
-            names.dofs.entry(&of.joint_name).or_default().push(idx);
-        }
-        for (idx, of) in dof.dofs.iter().enumerate().rev() {
-            names.dofs.insert(&of.name, vec![idx]);
-        }
-        names
-    }
-
-    fn dofs(&self, name: &str) -> &[usize] {
-        self.dofs.get(name).map_or(&[], Vec::as_slice)
-    }
-
-    /// That nothing has a name; of the first such names with the nearest one that something has.
-    fn unknown<'n>(&self, what: &str, name: &str, all: impl Iterator<Item = &'n str>) -> String {
-        let compared = self.compared.replace(self.compared.get() + 1);
-        let near = if compared < MOST_COMPARED { nearest(all, name) } else { None };
-        let near =
-            near.map_or_else(String::new, |near| format!("; did you mean `{}`?", Short::of(&near)));
-        format!("there is no {what} `{}`{near}", Short::of(name))
-    }
-}
 
 impl Made<'_> {
     /// The loops and couplings by index, without configurations.
@@ -143,7 +88,7 @@ impl Made<'_> {
         let of = one.get_ref();
         let link = |name: &Name| {
             let word = name.get_ref().as_str();
-            known.links.get(word).copied().ok_or_else(|| {
+            known.link(word).ok_or_else(|| {
                 let all = self.chain.links_in_chain.iter().map(|link| link.name.as_str());
                 (name.span(), known.unknown("link", word, all))
             })
@@ -230,7 +175,7 @@ impl Made<'_> {
         known: &Names<'_>,
         sum: &mut Terms,
     ) -> Option<bool> {
-        let idx = *known.joints.get(name)?;
+        let idx = known.joint(name)?;
         if self.chain.joints_in_chain[idx].joint_type == JointType::Fixed {
             return Some(false);
         }
@@ -264,7 +209,7 @@ impl Made<'_> {
             let word = name.get_ref().as_str();
             let dofs = known.dofs(word);
             if dofs.is_empty() && said.text.is_some() {
-                match known.joints.contains_key(word) {
+                match known.joint(word).is_some() {
                     true => fixed.push(word),
                     false => none.push(word),
                 }
