@@ -4,6 +4,7 @@
 #![expect(missing_docs, reason = "docs/loops.md says what they mean")]
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use serde::{Deserialize, Deserializer, Serialize};
 use toml::Spanned;
@@ -52,8 +53,9 @@ pub struct CouplingTable {
     pub name: String,
     #[serde(default)]
     pub constant: f64,
-    /// For each DOF, by name, up to four coefficients: of its position, its square, and so on.
-    pub terms: BTreeMap<Name, Vec<f64>>,
+    /// For each DOF, by name, up to four coefficients: of its position, its square, and so on. Names and coefficients that
+    /// many couplings have are shared.
+    pub terms: BTreeMap<Spanned<Arc<str>>, Arc<[f64]>>,
 }
 
 impl File {
