@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use urdd_directory::file_type::FileType;
 use urdd_directory::file_type::HEAD;
-use urdd_directory::limits::Account;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::limits::{Account, MAX_DOCUMENT_BYTES, Overdrawn};
 use urdd_usd::{Door, outline};
 use urdd_xml::{Mended, parse_leniently};
 
@@ -76,8 +75,8 @@ impl Door for OneFile {
         Ok(Arc::clone(&self.0))
     }
 
-    fn charge(&mut self, bytes: usize) -> Result<(), String> {
-        self.1.charge(bytes).map_err(|why| why.to_string())
+    fn charge(&self, cost: usize) -> Result<(), Overdrawn> {
+        self.1.charge(cost)
     }
 }
 

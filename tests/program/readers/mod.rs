@@ -15,7 +15,7 @@ mod yaml;
 
 pub use archive::archive;
 pub use archive_names::archive_names;
-pub use import::{mjcf, sdf, usd};
+pub use import::{mjcf, sdf, usd, usd_crate, usd_package};
 pub use json::json;
 pub use mesh::{dae, glb, gltf, obj, stl};
 pub use programs::programs;

@@ -5,6 +5,7 @@
 
 mod bounds;
 mod bounds_of_places;
+mod bounds_usd;
 mod gate;
 mod mjcf;
 mod mjcf_faults;
