@@ -18,7 +18,6 @@ use std::sync::{Arc, Mutex};
 use testkit::dice::Dice;
 use testkit::trials::trials;
 use urdd_diff::{Side, compare};
-use urdd_directory::cancellation::Cancellation;
 use urdd_directory::limits::{ALLOWANCE, MULTIPLE};
 use urdd_generate::{Selection, generate_in_memory};
 use urdd_import::import_whole;
@@ -576,7 +575,7 @@ fn whatever_multiplies_is_bounded() {
                 };
                 drop(generate_in_memory(path, &settings, &()));
             }
-            _ => drop(import_whole(path, &source, &Cancellation::default())),
+            _ => drop(import_whole(path, &source)),
         };
         let diff = || {
             let options = urdd_diff::Options { without_findings: true, ..Default::default() };

@@ -101,7 +101,7 @@ fn lint(arguments: &LintArguments, color: Color, signals: &Signals) -> Result<u8
     if !arguments.programs.is_empty() {
         settings.report.programs.clone_from(&arguments.programs);
     }
-    settings.report.cancellation = signals.cancellation();
+    settings.source.cancellation = signals.cancellation();
     let (paths, xacro_arguments) = split(&arguments.paths);
     settings.source.xacro = arguments.xacro.settings(xacro_arguments);
     output::without_panic_messages(|| work(arguments, &paths, &settings, color))

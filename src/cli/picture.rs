@@ -109,9 +109,9 @@ fn generated(
         selection: modules(),
         source: urdd_source::Settings {
             xacro: arguments.xacro.settings(words),
+            cancellation: signals.cancellation(),
             ..arguments.packages.settings()?
         },
-        cancellation: signals.cancellation(),
         ..Settings::default()
     };
     let (made, files) = generate_in_memory(path, &settings, &()).map_err(output::one_line)?;

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use urdd_directory::account::Account;
 use urdd_directory::discover::{Found, discover};
 use urdd_directory::file_type::setup_beside;
-use urdd_directory::limits::Account;
 use urdd_directory::limits::MAX_TOML_BYTES;
 use urdd_directory::path;
 use urdd_directory::regular;
@@ -83,7 +83,8 @@ fn validation(
     if options.without_findings {
         return Ok(None);
     }
-    let settings = Settings { cancellation: options.cancellation.clone(), ..Settings::default() };
+    let settings =
+        Settings { cancellation: options.urdf.cancellation.clone(), ..Settings::default() };
     let run = validate(&settings).map_err(|error| match error {
         ValidateError::Discover(error) => DiffError::Discover(error),
         _ => DiffError::Cancelled,
@@ -102,7 +103,7 @@ fn open_urdf(path: &Path, is: RobotFile, options: &Options) -> Result<Side, Diff
         let is_validated = !options.without_findings && is_read;
         (other_parts(xml), is_validated.then(|| examine_urdf(xml, &name)))
     };
-    let opened = urdd_import::open(path, &options.urdf, &options.cancellation, also);
+    let opened = urdd_import::open(path, &options.urdf, also);
     let (source, (other_parts, examined)) = opened.map_err(DiffError::Urdf)?;
     let view = of_urdf(&source.robot);
     let files = source.meshes.iter().map(|mesh| {

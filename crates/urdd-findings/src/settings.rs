@@ -10,8 +10,8 @@ use super::check::{Check, Examined, Outcome};
 use super::code::Code;
 use super::part::SkipReason;
 use super::places::fold;
+use urdd_directory::account::AccountError;
 use urdd_directory::cancellation::Cancellation;
-use urdd_directory::limits::Overdrawn;
 use urdd_format::report::{Kind, Severity, StaleIgnore};
 use urdd_format::root_metadata::ConformanceClass;
 
@@ -153,7 +153,7 @@ pub enum RobotError {
     )]
     Many { path: String, count: usize },
     #[error(transparent)]
-    Overdrawn(#[from] Overdrawn),
+    Account(#[from] AccountError),
 }
 
 impl Settings {

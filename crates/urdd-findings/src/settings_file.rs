@@ -12,8 +12,8 @@ use super::settings::{
     Exclude, Ignore, MAX_VARIANTS, RobotError, Settings, SettingsError, matcher, parse_class,
     parse_code, parse_program, parse_severity,
 };
+use urdd_directory::account::Account;
 use urdd_directory::file_type::stem;
-use urdd_directory::limits::Account;
 use urdd_directory::limits::MAX_TOML_BYTES;
 use urdd_directory::listing::ReadError;
 use urdd_directory::position::{Position, position};

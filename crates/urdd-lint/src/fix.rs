@@ -79,7 +79,7 @@ pub fn mend(
     files.dedup();
     let to = |path: &Path| target(path, paths, is_forced).ok();
     let mended = files.par_iter().filter_map(|path| mended(path, settings, to)).collect();
-    settings.report.cancellation.check()?;
+    settings.source.cancellation.check()?;
     Ok(mended)
 }
 
@@ -88,8 +88,7 @@ fn mended(
     settings: &LintSettings,
     target: impl Fn(&Path) -> Option<Result<PathBuf, LeftAlone>>,
 ) -> Option<Mended> {
-    let read =
-        urdd_source::read_source(path, &settings.source, &settings.report.cancellation).ok()?;
+    let read = urdd_source::read_source(path, &settings.source).ok()?;
     // Fixes of an MJCF, SDF or USD are for the URDF that an import makes of it.
     if Format::of(&read.text).is_some() || read.trail.is_some() {
         return None;
@@ -108,7 +107,7 @@ fn mended(
         let examined = settings.apply(Some(path), name.clone(), examined);
         let findings = examined.checks.iter().flat_map(|check| &check.findings);
         let (next, mended) = with_fixes(&text, &name, findings.flat_map(Finding::places));
-        if mended == 0 || settings.report.cancellation.is_cancelled() {
+        if mended == 0 || settings.source.cancellation.is_cancelled() {
             break;
         }
         (text, places) = (next, places + mended);

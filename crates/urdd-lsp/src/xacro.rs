@@ -40,7 +40,7 @@ pub fn of_files(snapshot: &Snapshot, project: &Project) -> Vec<Found> {
         return found;
     };
     let settings = &project.settings;
-    let read = match read_source(path, &settings.source, &settings.report.cancellation) {
+    let read = match read_source(path, &settings.source) {
         Ok(read) => read,
         Err(SourceError::NeedsArguments { needed, fault, .. }) => {
             let examined = lint_undeclared(path, &needed, &fault, settings);

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
+use urdd_directory::account::Account;
 use urdd_directory::file_type::FileType;
-use urdd_directory::limits::Account;
 use urdd_format::short::Short;
 
 use crate::beside::text;
@@ -75,7 +75,7 @@ pub fn describe(
     let mut texts = Texts {
         settings,
         packages,
-        account: Account::default(),
+        account: Account::new(&settings.cancellation),
         looked_up: HashMap::new(),
         gates: HashMap::new(),
         installed: HashMap::new(),

@@ -4,9 +4,10 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use urdd_directory::account::{Account, AccountError};
 use urdd_directory::file_type::FileType;
 use urdd_directory::file_type::HEAD;
-use urdd_directory::limits::{Account, MAX_DOCUMENT_BYTES, Overdrawn};
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_usd::{Door, outline};
 use urdd_xml::{Mended, parse_leniently};
 
@@ -75,7 +76,7 @@ impl Door for OneFile {
         Ok(Arc::clone(&self.0))
     }
 
-    fn charge(&self, cost: usize) -> Result<(), Overdrawn> {
+    fn charge(&self, cost: usize) -> Result<(), AccountError> {
         self.1.charge(cost)
     }
 }

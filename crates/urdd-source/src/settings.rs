@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::range::{OutOfRange, Range};
 
 use crate::files::Files;
@@ -26,6 +27,8 @@ pub struct Settings {
     pub loops: Option<PathBuf>,
     /// Where files are.
     pub files: Files,
+    /// Cancellation: each account of a run is asked for it.
+    pub cancellation: Cancellation,
 }
 
 impl Settings {

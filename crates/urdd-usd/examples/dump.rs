@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use serde_json::{Map, Value as Json, json};
-use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::account::{Account, AccountError};
 use urdd_usd::{Door, Property, Value, open};
 
 /// The folder of the root layer.
@@ -16,7 +16,7 @@ impl Door for Folder {
         std::fs::read(self.0.join(path)).map(Arc::from).map_err(|why| why.to_string())
     }
 
-    fn charge(&self, _: usize) -> Result<(), Overdrawn> {
+    fn charge(&self, _: usize) -> Result<(), AccountError> {
         Ok(())
     }
 }

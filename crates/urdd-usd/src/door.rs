@@ -4,7 +4,7 @@
 use std::io::{Cursor, Read};
 use std::sync::Arc;
 
-use urdd_directory::limits::Overdrawn;
+use urdd_directory::account::AccountError;
 use zip::result::ZipError;
 use zip::{CompressionMethod, ZipArchive};
 
@@ -23,7 +23,7 @@ pub trait Door {
     ///
     /// # Errors
     /// If that is too much. They are not made then, and it is not done.
-    fn charge(&self, cost: usize) -> Result<(), Overdrawn>;
+    fn charge(&self, cost: usize) -> Result<(), AccountError>;
 }
 
 /// A path relative to that of a layer, normalised; absolute ones stay.

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use thiserror::Error;
-use urdd_directory::limits::Overdrawn;
+use urdd_directory::account::AccountError;
 
 /// Why a stage cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -90,5 +90,5 @@ pub enum Fault {
     #[error("sublayers go round in a circle at `{0}`")]
     LayerCircle(String),
     #[error(transparent)]
-    TooMuch(#[from] Overdrawn),
+    TooMuch(#[from] AccountError),
 }

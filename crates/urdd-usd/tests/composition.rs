@@ -4,7 +4,7 @@
 mod common;
 
 use common::{composed, find, stage, take};
-use urdd_directory::limits::Account;
+use urdd_directory::account::Account;
 use urdd_usd::{Authored, Stage, Value};
 
 fn number(stage: &Stage, path: &str) -> f64 {
@@ -16,7 +16,11 @@ fn number(stage: &Stage, path: &str) -> f64 {
 fn targets(stage: &Stage, path: &str) -> Vec<String> {
     let (_, property) = path.rsplit_once('.').unwrap();
     let prim = &stage.prims[find(stage, path).unwrap()];
-    prim.targets(property).walk(&Account::default()).unwrap().map(|target| target.to_string()).collect()
+    prim.targets(property)
+        .walk(&Account::default())
+        .unwrap()
+        .map(|target| target.to_string())
+        .collect()
 }
 
 #[test]

@@ -59,16 +59,23 @@ fn kinds(n: usize) -> Vec<(&'static str, String)> {
             "statements of one field",
             format!("def \"p\" (\n{}) {{}}\n", "append apiSchemas = \"one\"\n".repeat(n)),
         ),
-        ("schemas", format!("def \"p\" (apiSchemas = [{}]) {{}}\n", list(&|at| format!("\"{at}\"")))),
+        (
+            "schemas",
+            format!("def \"p\" (apiSchemas = [{}]) {{}}\n", list(&|at| format!("\"{at}\""))),
+        ),
         (
             "entries of dictionaries",
-            format!("class \"c\" (customData = {{\n{}}}) {{}}\n", each(n, |at| format!("int e{at} = 1")))
-                + "def \"p\" (inherits = </c>\ncustomData = {\nint own = 1\n}) {}\n",
+            format!(
+                "class \"c\" (customData = {{\n{}}}) {{}}\n",
+                each(n, |at| format!("int e{at} = 1"))
+            ) + "def \"p\" (inherits = </c>\ncustomData = {\nint own = 1\n}) {}\n",
         ),
         (
             "sites of a dictionary",
-            format!("class \"c\" (customData = {{\n{}}}) {{}}\n", each(n, |at| format!("int e{at} = 1")))
-                + &each(200, |at| format!("class \"r{at}\" (customData = {{\nint own = 1\n}}) {{}}"))
+            format!(
+                "class \"c\" (customData = {{\n{}}}) {{}}\n",
+                each(n, |at| format!("int e{at} = 1"))
+            ) + &each(200, |at| format!("class \"r{at}\" (customData = {{\nint own = 1\n}}) {{}}"))
                 + &format!(
                     "def \"p\" (inherits = </c>\nreferences = [{}]) {{}}\n",
                     (0..200).map(|at| format!("</r{at}>")).collect::<Vec<_>>().join(", ")

@@ -6,7 +6,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
-use urdd_directory::limits::{Charged, MAX_DOCUMENT_BYTES, Overdrawn};
+use urdd_directory::account::{AccountError, Charged};
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::path::file_name;
 use urdd_source::gate::Gate;
 use urdd_source::is_image;
@@ -133,7 +134,7 @@ impl Door for GateDoor<'_> {
         Ok(bytes)
     }
 
-    fn charge(&self, cost: usize) -> Result<(), Overdrawn> {
+    fn charge(&self, cost: usize) -> Result<(), AccountError> {
         self.gate.account().charge(cost)
     }
 }

@@ -7,7 +7,7 @@ use nalgebra::{
     Isometry3, Matrix2, Matrix2x3, Matrix3, Rotation2, Translation3, UnitQuaternion, Vector2,
     Vector3,
 };
-use urdd_directory::limits::Overdrawn;
+use urdd_directory::account::AccountError;
 use urdd_geometry::mesh::Bounds;
 use urdd_geometry::{Mesh, primitives};
 use urdd_kinematics::rotation::from_z;
@@ -312,10 +312,7 @@ pub fn look(
 }
 
 /// The colour of a material, and its image.
-fn of_material(
-    scene: &Scene<'_>,
-    material: usize,
-) -> Fallible<(Option<[f64; 4]>, Option<Image>)> {
+fn of_material(scene: &Scene<'_>, material: usize) -> Fallible<(Option<[f64; 4]>, Option<Image>)> {
     let (mut shader, place) = (None, scene.place(material));
     for name in ["outputs:surface", "outputs:mdl:surface"] {
         shader = shader.or(scene.target(material, name)?);
@@ -352,7 +349,7 @@ fn of_material(
 }
 
 /// The primvar by which a texture is placed, and what moves it.
-fn placing(scene: &Scene<'_>, texture: usize) -> Result<(String, Matrix2x3<f64>), Overdrawn> {
+fn placing(scene: &Scene<'_>, texture: usize) -> Result<(String, Matrix2x3<f64>), AccountError> {
     let mut moved = Matrix2x3::identity();
     let mut of = source(scene, texture, "inputs:st")?.map(|(prim, _)| prim);
     if let Some(turned) = of.filter(|of| scene.prim(*of).property("inputs:in").is_some()) {
@@ -371,7 +368,7 @@ fn placing(scene: &Scene<'_>, texture: usize) -> Result<(String, Matrix2x3<f64>)
 }
 
 /// The text that a property says.
-fn text(scene: &Scene<'_>, of: &Property) -> Result<Option<String>, Overdrawn> {
+fn text(scene: &Scene<'_>, of: &Property) -> Result<Option<String>, AccountError> {
     let value = of.value().map(|value| value.take(&scene.account)).transpose()?;
     Ok(value.and_then(Value::text).map(ToString::to_string))
 }
@@ -381,7 +378,7 @@ fn source<'s>(
     scene: &Scene<'s>,
     shader: usize,
     name: &str,
-) -> Result<Option<(usize, &'s Property)>, Overdrawn> {
+) -> Result<Option<(usize, &'s Property)>, AccountError> {
     let Some(own) = scene.prim(shader).property(name) else { return Ok(None) };
     let mut of = (shader, own);
     for _ in 0..MOST_STEPS {

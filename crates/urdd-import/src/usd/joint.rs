@@ -73,8 +73,7 @@ pub fn joints(scene: &Scene<'_>, tally: &mut Tally) -> Fallible<Vec<UsdJoint>> {
         if !is_joint(prim) {
             continue;
         }
-        let is_lost =
-            |end| Ok(!prim.targets(end).is_empty() && scene.target(at, end)?.is_none());
+        let is_lost = |end| Ok(!prim.targets(end).is_empty() && scene.target(at, end)?.is_none());
         if !flag(prim, "physics:jointEnabled", true)
             || &*prim.type_name == "PhysicsDistanceJoint"
             || is_lost("physics:body0")?

@@ -13,7 +13,7 @@ mod scene;
 
 use std::collections::BTreeMap;
 
-use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::account::{Account, AccountError};
 use urdd_source::ImportOptions;
 use urdd_source::gate::Gate;
 use urdd_usd::{Place as LayerPlace, Stage, UsdError};
@@ -66,7 +66,7 @@ pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Mode
 
 /// The first that may hold a part of a robot: where bodies or joints are in the prim that brings it in, or it is in a body,
 /// or a joint leads into it, or there are no bodies.
-fn needed<'s>(stage: &'s Stage, account: &Account) -> Result<Option<&'s UsdError>, Overdrawn> {
+fn needed<'s>(stage: &'s Stage, account: &Account) -> Result<Option<&'s UsdError>, AccountError> {
     // Of each prim: whether it is in a body, and whether a body or a joint is in it.
     let mut is_inside = vec![false; stage.prims.len()];
     let mut is_around = vec![false; stage.prims.len()];

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use urdd_directory::limits::{Account, Charged, Overdrawn};
+use urdd_directory::account::{Account, AccountError, Charged};
 use urdd_usd::{Authored, Prim, Value};
 
 use super::frames::Made;
@@ -90,7 +90,6 @@ impl Groups {
         let all: Vec<(usize, &Prim)> = (scene.stage.prims.iter().enumerate())
             .filter(|(_, prim)| &*prim.type_name == "PhysicsCollisionGroup")
             .collect();
-        account.charge(LOOK * all.len() * all.len()).at(Default::default())?;
         // Groups of one name are one.
         let (mut named, mut index) = (HashMap::new(), HashMap::new());
         let mut count = 0;
@@ -105,6 +104,7 @@ impl Groups {
         for (at, prim) in &all {
             let own = index[at];
             let place = scene.place(*at);
+            account.charge(LOOK * count).at(place)?;
             let mut others = BTreeSet::new();
             for path in prim.targets("physics:filteredGroups").walk(account).at(place)? {
                 let other = scene.stage.find(path, account).at(place)?;
@@ -142,7 +142,7 @@ impl Groups {
         scene: &Scene<'_>,
         prim: usize,
         account: &Account,
-    ) -> Result<BTreeSet<usize>, Overdrawn> {
+    ) -> Result<BTreeSet<usize>, AccountError> {
         let around: Vec<usize> =
             std::iter::successors(Some(prim), |at| scene.prim(*at).parent).collect();
         account.charge(LOOK * self.listed.len() * around.len())?;
@@ -162,7 +162,7 @@ impl Groups {
         solids: &HashMap<usize, Vec<Solid>>,
         account: &Account,
         tally: &mut Tally,
-    ) -> Result<Vec<(usize, usize)>, Overdrawn> {
+    ) -> Result<Vec<(usize, usize)>, AccountError> {
         // The sets of groups that the shapes of each body are in.
         let mut bodies: BTreeMap<usize, BTreeSet<BTreeSet<usize>>> = BTreeMap::new();
         for (body, solids) in solids {

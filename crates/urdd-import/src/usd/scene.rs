@@ -3,7 +3,7 @@
 use nalgebra::{
     Isometry3, Matrix3, Matrix4, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3,
 };
-use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::account::{Account, AccountError};
 use urdd_usd::{Authored, Prim, Property, Stage, Value};
 use urdd_xml::is_character;
 
@@ -14,8 +14,10 @@ use crate::place::{Fallible, Place, Placing, at as refused};
 const METRE: f64 = 0.01;
 /// Bytes of what a prim inherits.
 const PRIM: usize = 300;
+/// Steps of a letter of a name, which is checked, copied and told.
+const NAME: usize = 4;
 /// Steps of a transform of a prim.
-const TRANSFORM: usize = 100;
+const TRANSFORM: usize = 200;
 /// How a prim names its material: that which is seen, the same for a preview, that of physics.
 pub const BINDINGS: [&str; 3] =
     ["material:binding", "material:binding:preview", "material:binding:physics"];
@@ -49,14 +51,11 @@ pub struct Scene<'s> {
 
 impl<'s> Scene<'s> {
     /// What prims inherit. `texts` are those of the layers.
-    pub fn of(
-        stage: &'s Stage,
-        texts: &[&str],
-        account: &Account,
-    ) -> Fallible<Self> {
+    pub fn of(stage: &'s Stage, texts: &[&str], account: &Account) -> Fallible<Self> {
         account.charge(PRIM * stage.prims.len()).at(Place::default())?;
-        let number =
-            |name: &str, default| stage.metadata(name).and_then(Authored::number).unwrap_or(default);
+        let number = |name: &str, default| {
+            stage.metadata(name).and_then(Authored::number).unwrap_or(default)
+        };
         let (metre, kilogram) = (number("metersPerUnit", METRE), number("kilogramsPerUnit", 1.0));
         if !(metre > 0.0 && metre.is_finite() && kilogram > 0.0 && kilogram.is_finite()) {
             return Err(refused(Place::default(), UsdFault::Units));
@@ -138,7 +137,10 @@ impl<'s> Scene<'s> {
         let (rotation, scale) = split(&matrix.fixed_view::<3, 3>(0, 0).into_owned());
         if !scale.iter().all(|part| part.is_finite() && *part != 0.0) {
             let place = self.place(at);
-            return Err(refused(place, UsdFault::Scale(self.stage.path(at, &self.account).at(place)?)));
+            return Err(refused(
+                place,
+                UsdFault::Scale(self.stage.path(at, &self.account).at(place)?),
+            ));
         }
         let place = matrix.fixed_view::<3, 1>(0, 3) * self.metre;
         Ok((Isometry3::from_parts(Translation3::from(place), rotation), scale))
@@ -166,8 +168,9 @@ impl<'s> Scene<'s> {
         let prim = self.prim(at);
         let shown = prim.field("displayName").map(|name| name.take(&self.account));
         let shown = shown.transpose().at(self.place(at))?;
-        self.account.charge(prim.name.len()).at(self.place(at))?;
         let shown = shown.and_then(Value::text).map(|name| &**name);
+        let letters = prim.name.len() + shown.map_or(0, str::len);
+        self.account.charge(NAME * letters).at(self.place(at))?;
         let mut names = [shown, Some(&*prim.name)].into_iter().flatten();
         Ok(names.find(|name| is_name(name)).unwrap_or("unnamed"))
     }
@@ -232,7 +235,7 @@ fn placed(
     prim: &Prim,
     above: &Matrix4<f64>,
     account: &Account,
-) -> Result<Matrix4<f64>, Overdrawn> {
+) -> Result<Matrix4<f64>, AccountError> {
     let mut matrix = *above;
     let Some(order) = prim.value("xformOpOrder") else { return Ok(matrix) };
     for op in order.take(account)?.texts().unwrap_or_default() {

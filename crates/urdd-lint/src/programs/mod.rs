@@ -55,7 +55,7 @@ impl Asked {
         let others = Program::ALL.into_iter().filter(|one| one.is_asked() && !chosen.contains(one));
         let (mut results, mut said, mut refusing) = (Vec::new(), Vec::new(), Vec::new());
         for program in chosen.iter().copied().chain(others) {
-            if settings.report.cancellation.is_cancelled() {
+            if settings.source.cancellation.is_cancelled() {
                 break;
             }
             let is_chosen = chosen.contains(&program);

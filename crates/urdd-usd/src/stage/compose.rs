@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use urdd_directory::limits::Overdrawn;
+use urdd_directory::account::AccountError;
 
 use super::composed::{Prim, Property};
 use super::sources::{Composer, MAX_SITES, absolute, shared};
@@ -111,8 +111,7 @@ impl Composer<'_> {
         let (mut properties, mut sampled) = (Vec::new(), 0);
         for opinions in opinions.values() {
             let property = self.property(opinions, tree, names);
-            let (property, is_sampled) =
-                property.map_err(|why| self.too_much(tree, names, why))?;
+            let (property, is_sampled) = property.map_err(|why| self.too_much(tree, names, why))?;
             sampled += usize::from(is_sampled);
             properties.push(property);
         }
@@ -136,7 +135,7 @@ impl Composer<'_> {
         &self,
         all: impl Iterator<Item = (u32, &'l Vec<(Name, Value)>)>,
         without: &[&str],
-    ) -> Result<Vec<(Name, Value)>, Overdrawn> {
+    ) -> Result<Vec<(Name, Value)>, AccountError> {
         let mut fields: Vec<(&Name, u32, Merged<'_>)> = Vec::new();
         let mut places: HashMap<&Name, usize> = HashMap::new();
         for (layer, own) in all {
@@ -165,7 +164,7 @@ impl Composer<'_> {
     }
 
     /// A value whose path of a file is relative to the root layer.
-    fn anchored(&self, layer: u32, value: &Value) -> Result<Value, Overdrawn> {
+    fn anchored(&self, layer: u32, value: &Value) -> Result<Value, AccountError> {
         Ok(match value {
             Value::Asset(asset) if !asset.is_empty() && !is_remote(asset) => {
                 let layer = &self.layers.all[layer as usize].path;
@@ -181,7 +180,7 @@ impl Composer<'_> {
         opinions: &[Opinion<'_>],
         tree: &Tree,
         names: &[Name],
-    ) -> Result<(Property, bool), Overdrawn> {
+    ) -> Result<(Property, bool), AccountError> {
         let (_, _, strongest) = opinions[0];
         let find = |name: &str| {
             opinions.iter().find_map(|(_, layer, of)| Some((*layer, field(&of.fields, name)?)))
@@ -221,7 +220,7 @@ impl Composer<'_> {
         tree: &Tree,
         at: usize,
         names: &[Name],
-    ) -> Result<Option<Item>, Overdrawn> {
+    ) -> Result<Option<Item>, AccountError> {
         let (door, path) = (&*self.layers.door, item.text());
         door.charge(TARGET + path.len())?;
         if at == 0 && path.starts_with('/') {
@@ -244,7 +243,7 @@ enum Merged<'l> {
 
 impl<'l> Merged<'l> {
     /// Adds what a weaker dictionary says.
-    fn add(&mut self, weaker: &'l Value, door: &dyn Door) -> Result<(), Overdrawn> {
+    fn add(&mut self, weaker: &'l Value, door: &dyn Door) -> Result<(), AccountError> {
         let Value::Dictionary(more) = weaker else { return Ok(()) };
         let cost = |entries: &[(Name, Value)]| {
             entries.iter().map(|(name, _)| ENTRY + name.len()).sum::<usize>()
@@ -340,7 +339,7 @@ impl Composer<'_> {
         tree: &Tree,
         order: &[usize],
         set: &str,
-    ) -> Result<Option<Name>, Overdrawn> {
+    ) -> Result<Option<Name>, AccountError> {
         self.layers.door.charge(tree.steps())?;
         for spec in order.iter().flat_map(|at| tree.0[*at].specs.iter()) {
             let selection = field(&self.spec(*spec).fields, "variantSelection");

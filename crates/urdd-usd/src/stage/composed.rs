@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::slice::Iter;
 use std::sync::Arc;
 
-use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::account::{Account, AccountError};
 
 use crate::error::UsdError;
 use crate::layer::{Name, Value, field};
@@ -78,7 +78,7 @@ impl<'s> Authored<'s> {
     ///
     /// # Errors
     /// If the account does not have its size.
-    pub fn take(self, account: &Account) -> Result<&'s Value, Overdrawn> {
+    pub fn take(self, account: &Account) -> Result<&'s Value, AccountError> {
         account.charge(size(self.0))?;
         Ok(self.0)
     }
@@ -166,7 +166,7 @@ impl<'s> Targets<'s> {
     ///
     /// # Errors
     /// If the account does not have a look at each.
-    pub fn walk(self, account: &Account) -> Result<Iter<'s, Name>, Overdrawn> {
+    pub fn walk(self, account: &Account) -> Result<Iter<'s, Name>, AccountError> {
         account.charge(LOOK * self.0.len())?;
         Ok(self.0.iter())
     }
@@ -177,7 +177,7 @@ impl Stage {
     ///
     /// # Errors
     /// If the account does not have the length of the path.
-    pub fn find(&self, path: &str, account: &Account) -> Result<Option<usize>, Overdrawn> {
+    pub fn find(&self, path: &str, account: &Account) -> Result<Option<usize>, AccountError> {
         let (last, is_there) = self.along(path, account)?;
         Ok(last.filter(|_| is_there))
     }
@@ -186,12 +186,12 @@ impl Stage {
     ///
     /// # Errors
     /// If the account does not have the length of the path.
-    pub fn nearest(&self, path: &str, account: &Account) -> Result<Option<usize>, Overdrawn> {
+    pub fn nearest(&self, path: &str, account: &Account) -> Result<Option<usize>, AccountError> {
         Ok(self.along(path, account)?.0)
     }
 
     /// The last prim along a path, and whether the path ends at it.
-    fn along(&self, path: &str, account: &Account) -> Result<(Option<usize>, bool), Overdrawn> {
+    fn along(&self, path: &str, account: &Account) -> Result<(Option<usize>, bool), AccountError> {
         account.charge(LOOK + path.len())?;
         let path = path.split_once('.').map_or(path, |(prim, _)| prim);
         let Some(path) = path.strip_prefix('/') else { return Ok((None, false)) };
@@ -210,7 +210,7 @@ impl Stage {
     ///
     /// # Errors
     /// If the account does not have its length.
-    pub fn path(&self, prim: usize, account: &Account) -> Result<String, Overdrawn> {
+    pub fn path(&self, prim: usize, account: &Account) -> Result<String, AccountError> {
         let mut names = Vec::new();
         let mut next = Some(prim);
         while let Some(prim) = next.and_then(|at| self.prims.get(at)) {

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use urdd_directory::limits::Overdrawn;
+use urdd_directory::account::AccountError;
 
 use crate::door::{Door, PACKAGE_START, Package, beside, is_remote};
 use crate::error::{Fault, Place, UsdError};
@@ -72,19 +72,19 @@ impl<'d> Layers<'d> {
         &self.all[layer as usize].layer.specs[spec as usize]
     }
 
-    fn specs(&self, all: Vec<(u32, u32)>) -> Result<Specs, Overdrawn> {
+    fn specs(&self, all: Vec<(u32, u32)>) -> Result<Specs, AccountError> {
         let steps = all.iter().map(|spec| self.spec(*spec).steps).sum();
         self.door.charge(steps)?;
         Ok(Specs { all, steps })
     }
 
     /// The layers of a stack, as specs.
-    pub fn roots(&self, stack: usize) -> Result<Specs, Overdrawn> {
+    pub fn roots(&self, stack: usize) -> Result<Specs, AccountError> {
         self.specs(self.stacks[stack].iter().map(|layer| (*layer, 0)).collect())
     }
 
     /// What layers say of a child or a variant.
-    pub fn inside(&self, specs: &Specs, name: &Name) -> Result<Specs, Overdrawn> {
+    pub fn inside(&self, specs: &Specs, name: &Name) -> Result<Specs, AccountError> {
         self.door.charge((LOOK + name.len()) * specs.len())?;
         let inside = specs.iter().filter_map(|(layer, spec)| {
             Some((*layer, self.all[*layer as usize].layer.child(*spec, name)?))

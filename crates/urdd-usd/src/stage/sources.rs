@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::rc::Rc;
 use std::sync;
 
-use urdd_directory::limits::Overdrawn;
+use urdd_directory::account::AccountError;
 
 use super::composed::Stage;
 use super::layers::{Layers, error};
@@ -111,7 +111,7 @@ impl<'d> Composer<'d> {
     }
 
     /// Edits a list. All edits of lists are made here.
-    pub fn edit(&self, list: &mut Vec<Item>, edit: &ListOp) -> Result<(), Overdrawn> {
+    pub fn edit(&self, list: &mut Vec<Item>, edit: &ListOp) -> Result<(), AccountError> {
         let cost = |item: &Item| ITEM + item.len();
         let known: usize = list.iter().map(cost).sum();
         self.layers.door.charge(known + edit.all().map(cost).sum::<usize>())?;
@@ -144,7 +144,7 @@ impl<'d> Composer<'d> {
         self.layers.door.charge(cost).map_err(|why| self.too_much(tree, names, why))
     }
 
-    pub fn too_much(&self, tree: &Tree, names: &[Name], why: Overdrawn) -> UsdError {
+    pub fn too_much(&self, tree: &Tree, names: &[Name], why: AccountError) -> UsdError {
         self.wrong(tree, names, why.into())
     }
 

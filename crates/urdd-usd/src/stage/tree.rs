@@ -2,7 +2,7 @@
 
 use std::cmp::Reverse;
 
-use urdd_directory::limits::Overdrawn;
+use urdd_directory::account::AccountError;
 
 use super::layers::{Layers, Specs};
 use crate::door::Door;
@@ -53,7 +53,7 @@ impl Site {
     }
 
     /// Its path, for the prim of these names.
-    pub fn path(&self, names: &[Name], door: &dyn Door) -> Result<String, Overdrawn> {
+    pub fn path(&self, names: &[Name], door: &dyn Door) -> Result<String, AccountError> {
         let below = names.get(self.since..).unwrap_or_default();
         let length: usize = below.iter().map(|name| LOOK + name.len()).sum();
         door.charge(LOOK + self.base.len() + length)?;
@@ -78,14 +78,14 @@ impl Site {
 }
 
 impl Tree {
-    pub fn root(stack: usize, layers: &Layers<'_>) -> Result<Self, Overdrawn> {
+    pub fn root(stack: usize, layers: &Layers<'_>) -> Result<Self, AccountError> {
         let mut site = Site::new(0, Arc::Root, 0, stack, Name::from("/"), 0);
         site.specs = layers.roots(stack)?;
         Ok(Tree(vec![site]))
     }
 
     /// The sites of a child, without those that say nothing.
-    pub fn child(&self, name: &Name, layers: &Layers<'_>) -> Result<Tree, Overdrawn> {
+    pub fn child(&self, name: &Name, layers: &Layers<'_>) -> Result<Tree, AccountError> {
         layers.door.charge(SITE * self.0.len())?;
         let all = self.0.iter().map(|site| layers.inside(&site.specs, name));
         let all: Vec<Specs> = all.collect::<Result<_, _>>()?;
@@ -131,7 +131,7 @@ impl Tree {
         other: Tree,
         names: &[Name],
         door: &dyn Door,
-    ) -> Result<(), Overdrawn> {
+    ) -> Result<(), AccountError> {
         let (first, since) = (self.0.len(), site.since);
         let base = site.depth - names.len() as i32;
         let mut others = other.0.into_iter();
@@ -190,7 +190,7 @@ impl Tree {
         site: usize,
         path: &str,
         door: &dyn Door,
-    ) -> Result<Option<String>, Overdrawn> {
+    ) -> Result<Option<String>, AccountError> {
         let (mut at, mut path) = (site, path.to_owned());
         while at != 0 {
             door.charge(LOOK + path.len())?;

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::account::{Account, AccountError, Overdrawn};
 use urdd_usd::{Authored, Door, Stage, UsdError, Value, open};
 
 /// Files by path, and what may be made of them.
@@ -22,7 +22,7 @@ impl Door for Memory {
         self.files.get(path).cloned().ok_or_else(|| "no such file".to_owned())
     }
 
-    fn charge(&self, cost: usize) -> Result<(), Overdrawn> {
+    fn charge(&self, cost: usize) -> Result<(), AccountError> {
         self.most.set(self.most.get().max(cost));
         self.left.set(self.left.get().checked_sub(cost).ok_or(Overdrawn)?);
         Ok(())
