@@ -34,13 +34,14 @@ const WORK: usize = 50_000;
 const LEAST_WORK: usize = 2 << 30;
 /// Live bytes at which the program ends: the machine may not have more.
 const ABORT: usize = 3 << 30;
-const FORMATS: [Format; 3] = [Format::Urdf, Format::Mjcf, Format::Sdf];
+const FORMATS: [Format; 4] = [Format::Urdf, Format::Mjcf, Format::Sdf, Format::Usd];
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Format {
     Urdf,
     Mjcf,
     Sdf,
+    Usd,
 }
 
 struct Counting;
@@ -428,6 +429,110 @@ fn sdf(draw: &mut Draw) {
     draw.file("r.sdf", text);
 }
 
+/// A robot of two bodies whose class has what is drawn, and prims that inherit it.
+fn usd(draw: &mut Draw) {
+    let (name, body, attribute) = (draw.name("n"), draw.name("b"), draw.name("a"));
+    let (mut metadata, mut inside, mut top) = (String::new(), String::new(), String::new());
+    let mut kind = draw.one_of(&["", "Xform", "Cube", "MjcActuator", "PhysicsFixedJoint", "Mesh"]);
+    let all: Vec<usize> = (0..16).collect();
+    for what in draw.some(&all) {
+        match what {
+            0 => metadata += &draw.many("fields", |number| format!("f{number} = 1\n")),
+            1 => {
+                let entries = draw.many("entries", |number| format!("int e{number} = 1\n"));
+                metadata += &format!("customData = {{\n{entries}}}\n");
+            }
+            2 => {
+                let each = draw.many("configurations", |number| {
+                    format!("dictionary c{number} = {{\ndouble j = 1\n}}\n")
+                });
+                metadata += &format!(
+                    "customData = {{\ndictionary urdd = {{\ndictionary configurations = {{\n{each}}}\n}}\n}}\n"
+                );
+            }
+            3 => {
+                let names = draw.many("schemas", |number| format!("\"s{number}\", "));
+                metadata += &format!("append apiSchemas = [\"PhysicsRigidBodyAPI\", {names}]\n");
+            }
+            4 => {
+                let paths = draw.many("targets", |number| format!("</t{number}>, "));
+                inside += &format!("rel physics:body0 = [{paths}</bot/b0>]\n");
+            }
+            5 => {
+                let ops = draw.many("transforms", |_| "\"xformOp:translate\", ".to_owned());
+                inside += &format!(
+                    "double3 xformOp:translate = (1, 0, 0)\nuniform token[] xformOpOrder = [{ops}]\n"
+                );
+            }
+            6 => {
+                let numbers = draw.many("numbers", |_| "1, ".to_owned());
+                inside += &format!("rel mjc:target = </bot/j>\ndouble[] mjc:gainPrm = [{numbers}]\n");
+                kind = "MjcActuator";
+            }
+            7 => inside += &draw.many("attributes", |number| format!("int {attribute}{number}\n")),
+            8 => inside += &draw.many("children", |number| format!("def Cube \"k{number}\" {{}}\n")),
+            9 => {
+                let sets = draw.many("variant sets", |number| {
+                    format!("variantSet \"v{number}\" = {{\n\"a\" {{}}\n}}\n")
+                });
+                let count = sets.matches("variantSet").count().min(900);
+                let names: Vec<String> = (0..count).map(|number| format!("\"v{number}\"")).collect();
+                let chosen: String =
+                    (0..count).map(|number| format!("string v{number} = \"a\"\n")).collect();
+                metadata += &format!("variantSets = [{}]\nvariants = {{\n{chosen}}}\n", names.join(", "));
+                inside += &sets;
+            }
+            10 => {
+                let count = draw.dice.below(900);
+                draw.said.push(format!("one sublayer {count} times"));
+                let layer = draw.many("prims of a layer", |number| format!("def Xform \"l{number}\" {{}}\n"));
+                draw.file("b.usda", format!("#usda 1.0\n{layer}"));
+                top += &format!("subLayers = [{}]\n", "@b.usda@, ".repeat(count));
+            }
+            11 => {
+                let depth = 1 + draw.dice.below(1000);
+                draw.said.push(format!("{depth} levels"));
+                inside += &("def \"d\" {\n".repeat(depth) + &"}\n".repeat(depth));
+            }
+            12 => metadata += &format!("displayName = \"{name}\"\n"),
+            13 => {
+                let faces = draw.many("faces", |_| "3, ".to_owned());
+                let corners = "0, 1, 2, ".repeat(faces.len() / 3);
+                let parts = draw.many("subsets", |number| {
+                    format!("def GeomSubset \"s{number}\" {{\nint[] indices = [{number}]\nrel material:binding = </bot>\n}}\n")
+                });
+                inside += &format!(
+                    "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\nint[] faceVertexCounts = [{faces}]\nint[] faceVertexIndices = [{corners}]\n{parts}"
+                );
+                kind = "Mesh";
+            }
+            14 => {
+                let words = draw.many("letters of a file", |_| "letter".to_owned());
+                inside += &format!("asset file = @{words}@\ntoken mjc:gainType = \"{words}\"\nrel mjc:target = </bot/j>\n");
+            }
+            _ => {
+                let count = draw.dice.below(900);
+                let paths: Vec<String> = (0..count).map(|number| format!("</c{number}>")).collect();
+                draw.said.push(format!("{count} classes"));
+                metadata += &format!("inherits = [{}]\n", paths.join(", "));
+            }
+        }
+    }
+    let classes: String = (0..900).map(|number| format!("class \"c{number}\" {{}}\n")).collect();
+    let heirs = draw.many("heirs", |number| {
+        format!("def {kind} \"p{number}\" (prepend apiSchemas = [\"x\"]\nreferences = </C>) {{}}\n")
+    });
+    let inner = draw.chance(2);
+    let (before, after) = if inner { ("def Xform \"in\" {\n", "}\n") } else { ("", "") };
+    let text = format!(
+        "#usda 1.0\n(\nupAxis = \"Z\"\nmetersPerUnit = 1\n{top})\nclass \"C\" (\n{metadata}) {{\n{inside}}}\n{classes}\
+        def Xform \"bot\" {{\ndef Cube \"b0\" (apiSchemas = [\"PhysicsRigidBodyAPI\", \"PhysicsCollisionAPI\"]) {{}}\n\
+        def Cube \"b1\" (displayName = \"{body}\"\napiSchemas = [\"PhysicsRigidBodyAPI\"]) {{\n{before}{heirs}{after}}}\n\
+        def PhysicsRevoluteJoint \"j\" {{\nrel physics:body0 = </bot/b0>\nrel physics:body1 = </bot/b1>\n}}\n}}\n"
+    );
+    draw.file("r.usda", text);
+}
+
 /// Peak of live bytes, and bytes of all allocations, while something is done.
 fn counted(what: impl FnOnce()) -> (usize, usize) {
     let (live, all) = (LIVE.load(Relaxed), ALL.load(Relaxed));
@@ -459,6 +564,10 @@ fn whatever_multiplies_is_bounded() {
             Format::Sdf => {
                 sdf(&mut draw);
                 "/r.sdf"
+            }
+            Format::Usd => {
+                usd(&mut draw);
+                "/r.usda"
             }
         };
         let path = Path::new(file);

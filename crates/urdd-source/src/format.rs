@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use urdd_directory::account::Account;
+use urdd_directory::account::{Account, AccountError};
 use urdd_directory::file_type::FileType;
 use urdd_directory::file_type::HEAD;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
@@ -76,8 +76,8 @@ impl Door for OneFile {
         Ok(Arc::clone(&self.0))
     }
 
-    fn charge(&mut self, bytes: usize) -> Result<(), String> {
-        self.1.charge(bytes).map_err(|why| why.to_string())
+    fn charge(&self, cost: usize) -> Result<(), AccountError> {
+        self.1.charge(cost)
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use serde_json::{Map, Value as Json, json};
+use urdd_directory::account::{Account, AccountError};
 use urdd_usd::{Door, Property, Value, open};
 
 /// The folder of the root layer.
@@ -15,7 +16,7 @@ impl Door for Folder {
         std::fs::read(self.0.join(path)).map(Arc::from).map_err(|why| why.to_string())
     }
 
-    fn charge(&mut self, _: usize) -> Result<(), String> {
+    fn charge(&self, _: usize) -> Result<(), AccountError> {
         Ok(())
     }
 }
@@ -44,14 +45,23 @@ fn dump(file: &str, name: &str, folder: PathBuf) -> Json {
             prim.properties.iter().map(|of| (of.name.to_string(), property(of))).collect();
         let schemas: Vec<&str> = prim.schemas.iter().map(|name| &**name).collect();
         let of = json!({ "type": &*prim.type_name, "schemas": schemas, "properties": properties });
-        prims.insert(stage.path(at), of);
+        prims.insert(stage.path(at, &unlimited()).unwrap_or_default(), of);
     }
     json!({ "file": file, "prims": prims, "seconds": seconds })
 }
 
+/// An account that has all.
+fn unlimited() -> Account {
+    let account = Account::default();
+    account.deposit(usize::MAX);
+    account
+}
+
 fn property(of: &Property) -> Json {
-    let targets: Vec<&str> = of.targets.iter().map(|path| &**path).collect();
-    json!({ "type": &*of.type_name, "value": of.value.as_ref().map(value), "targets": targets })
+    let targets = of.targets().walk(&unlimited()).into_iter().flatten();
+    let targets: Vec<&str> = targets.map(|path| &**path).collect();
+    let own = of.value().and_then(|of| of.take(&unlimited()).ok());
+    json!({ "type": &*of.type_name, "value": own.map(value), "targets": targets })
 }
 
 fn value(of: &Value) -> Json {

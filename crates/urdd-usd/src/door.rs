@@ -4,6 +4,7 @@
 use std::io::{Cursor, Read};
 use std::sync::Arc;
 
+use urdd_directory::account::AccountError;
 use zip::result::ZipError;
 use zip::{CompressionMethod, ZipArchive};
 
@@ -18,11 +19,11 @@ pub trait Door {
     /// If there is none, or it must not be read: why.
     fn read(&mut self, path: &str) -> Result<Arc<[u8]>, String>;
 
-    /// Charges bytes of memory that are about to be made.
+    /// Charges bytes of memory that are about to be made, or steps of work that is about to be done.
     ///
     /// # Errors
-    /// If that is too much: why. They are not made then.
-    fn charge(&mut self, bytes: usize) -> Result<(), String>;
+    /// If that is too much. They are not made then, and it is not done.
+    fn charge(&self, cost: usize) -> Result<(), AccountError>;
 }
 
 /// A path relative to that of a layer, normalised; absolute ones stay.
@@ -57,6 +58,9 @@ pub fn is_remote(asset: &str) -> bool {
     })
 }
 
+/// An entry of a package in memory, bytes: its name is in the package, too.
+const ENTRY: usize = 300;
+
 pub const PACKAGE_START: &[u8] = b"PK\x03\x04";
 
 pub struct Package {
@@ -66,10 +70,12 @@ pub struct Package {
 
 impl Package {
     /// Reads the list of entries.
-    pub fn open(bytes: Arc<[u8]>) -> Result<Self, Fault> {
+    pub fn open(bytes: Arc<[u8]>, door: &dyn Door) -> Result<Self, Fault> {
         let size = bytes.len() as u64;
         let archive = ZipArchive::new(Cursor::new(bytes));
-        archive.map(|archive| Package { archive, size }).map_err(|why| Fault::Zip(why.to_string()))
+        let archive = archive.map_err(|why| Fault::Zip(why.to_string()))?;
+        door.charge(ENTRY * archive.len())?;
+        Ok(Package { archive, size })
     }
 
     /// The name of the first entry, which is the layer that all begins with.
@@ -78,7 +84,7 @@ impl Package {
         Ok(first.name().to_owned())
     }
 
-    pub fn read(&mut self, name: &str, door: &mut dyn Door) -> Result<Arc<[u8]>, Fault> {
+    pub fn read(&mut self, name: &str, door: &dyn Door) -> Result<Arc<[u8]>, Fault> {
         let entry = self.archive.by_name(name).map_err(|why| match why {
             ZipError::FileNotFound => {
                 Fault::File { asset: name.to_owned(), why: "it is not in the package".to_owned() }
@@ -90,7 +96,7 @@ impl Package {
             return Err(Fault::Zip(format!("`{name}` is compressed, or longer than the package")));
         }
         let size = entry.size();
-        door.charge(size as usize).map_err(Fault::TooMuch)?;
+        door.charge(size as usize)?;
         let mut bytes = Vec::new();
         let read = entry.take(size).read_to_end(&mut bytes);
         read.map_err(|why| Fault::Zip(format!("`{name}`: {why}")))?;

@@ -4,6 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use thiserror::Error;
+use urdd_directory::account::AccountError;
 
 /// Why a stage cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -88,6 +89,6 @@ pub enum Fault {
     Sources(usize),
     #[error("sublayers go round in a circle at `{0}`")]
     LayerCircle(String),
-    #[error("{0}")]
-    TooMuch(String),
+    #[error(transparent)]
+    TooMuch(#[from] AccountError),
 }

@@ -31,7 +31,14 @@ pub struct Spec {
     pub children: Vec<u32>,
     /// Attributes and relationships.
     pub properties: Vec<PropertySpec>,
+    /// The steps of one composition of it, once the layer is read: see [`Layer::weigh`].
+    pub steps: usize,
 }
+
+/// What it costs to look at a spec, at a field and at a property, in steps.
+const SPEC: usize = 60;
+const FIELD: usize = 5;
+const PROPERTY: usize = 20;
 
 /// What a layer says of an attribute or relationship.
 #[derive(Debug)]
@@ -53,7 +60,7 @@ pub fn put(fields: &mut Vec<(Name, Value)>, name: Name, value: Value) {
     match fields.iter_mut().find(|(key, _)| *key == name) {
         Some((_, Value::List(known))) => {
             if let Value::List(more) = value {
-                *known = Arc::new(known.joined(&more));
+                Arc::make_mut(known).join(Arc::unwrap_or_clone(more));
             }
         }
         Some(known) => known.1 = value,
@@ -64,7 +71,7 @@ pub fn put(fields: &mut Vec<(Name, Value)>, name: Name, value: Value) {
 impl Spec {
     fn new(name: Name, level: u32, line: u32) -> Self {
         let (fields, children, properties) = (Vec::new(), Vec::new(), Vec::new());
-        Spec { name, level, line, fields, children, properties }
+        Spec { name, level, line, fields, children, properties, steps: 0 }
     }
 }
 
@@ -91,6 +98,16 @@ impl Layer {
     /// A spec inside of another.
     pub fn child(&self, parent: u32, name: &Name) -> Option<u32> {
         self.inside.get(&(parent, name.clone())).copied()
+    }
+
+    /// Says what a composition of each spec costs: with its fields and properties, and without what is in lists,
+    /// dictionaries and children, which are charged where they are looked at.
+    pub fn weigh(&mut self) {
+        let each = |of: &PropertySpec| PROPERTY + of.name.len() + FIELD * of.fields.len();
+        for spec in &mut self.specs {
+            let own = SPEC + FIELD * spec.fields.len();
+            spec.steps = own + spec.properties.iter().map(each).sum::<usize>();
+        }
     }
 
     /// A field of the layer itself.
@@ -252,6 +269,14 @@ impl Item {
             Item::Reference { path, .. } => path,
         }
     }
+
+    /// The bytes of its texts.
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Item::Text(text) | Item::Path(text) => text.len(),
+            Item::Reference { asset, path } => asset.len() + path.len(),
+        }
+    }
 }
 
 impl ListOp {
@@ -260,32 +285,40 @@ impl ListOp {
         ListOp { explicit: Some(items), ..ListOp::default() }
     }
 
-    /// Two edits of one list, which stand in two statements.
-    pub(crate) fn joined(&self, other: &ListOp) -> ListOp {
-        let both = |of: fn(&ListOp) -> &Vec<Item>| [of(self).as_slice(), of(other)].concat();
-        ListOp {
-            explicit: other.explicit.clone().or_else(|| self.explicit.clone()),
-            deleted: both(|list| &list.deleted),
-            added: both(|list| &list.added),
-            prepended: both(|list| &list.prepended),
-            appended: both(|list| &list.appended),
-        }
+    /// Adds an edit of the same list, which stands in a further statement.
+    pub(crate) fn join(&mut self, other: ListOp) {
+        self.explicit = other.explicit.or(self.explicit.take());
+        self.deleted.extend(other.deleted);
+        self.added.extend(other.added);
+        self.prepended.extend(other.prepended);
+        self.appended.extend(other.appended);
+    }
+
+    /// All its entries.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Item> {
+        let edits = [&self.deleted, &self.added, &self.prepended, &self.appended];
+        self.explicit.iter().chain(edits).flatten()
     }
 
     /// With other entries in place of its own; `None` leaves one out.
-    pub(crate) fn map(&self, mut each: impl FnMut(&Item) -> Option<Item>) -> ListOp {
-        let mut all = |items: &[Item]| items.iter().filter_map(&mut each).collect::<Vec<_>>();
-        ListOp {
-            explicit: self.explicit.as_deref().map(&mut all),
-            deleted: all(&self.deleted),
-            added: all(&self.added),
-            prepended: all(&self.prepended),
-            appended: all(&self.appended),
-        }
+    pub(crate) fn map<E>(
+        &self,
+        mut each: impl FnMut(&Item) -> Result<Option<Item>, E>,
+    ) -> Result<ListOp, E> {
+        let mut all = |items: &[Item]| -> Result<Vec<Item>, E> {
+            items.iter().filter_map(|item| each(item).transpose()).collect()
+        };
+        Ok(ListOp {
+            explicit: self.explicit.as_deref().map(&mut all).transpose()?,
+            deleted: all(&self.deleted)?,
+            added: all(&self.added)?,
+            prepended: all(&self.prepended)?,
+            appended: all(&self.appended)?,
+        })
     }
 
     /// Edits the list of the weaker opinions.
-    pub fn apply(&self, list: &mut Vec<Item>) {
+    pub(crate) fn apply(&self, list: &mut Vec<Item>) {
         use std::collections::HashSet;
         if let Some(items) = &self.explicit {
             list.clear();

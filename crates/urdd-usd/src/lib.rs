@@ -4,6 +4,10 @@
 //! sublayers, references, payloads, inherits, variants, `over`, `active` and instances. What is not read is refused by
 //! name. Files and memory come through a [`Door`].
 //!
+//! Memory and work are charged where neither can be had without: specs of layers (a list of them is made by `Layers::specs`
+//! alone), edits of lists (`Composer::edited`), and of a stage values, targets and paths ([`Authored`], [`Targets`],
+//! [`Stage::find`]).
+//!
 //! - Values are those at the default time; a property that has values by time alone has the first of them, and says so.
 //! - Specializes count as inherits that are weaker than payloads of the same prim.
 //! - Local opinions below an instance do not count, as in USD; prototypes are read in the place of instances.
@@ -24,4 +28,4 @@ pub use binary::START as CRATE_START;
 pub use door::{Door, beside};
 pub use error::{Fault, Place, UsdError};
 pub use layer::{Item, ListOp, MAX_LEVELS, Name, Value};
-pub use stage::{Outline, Prim, Property, Stage, file, open, outline};
+pub use stage::{Authored, Outline, Prim, Property, Stage, Targets, file, open, outline};

@@ -3,19 +3,24 @@
 
 mod common;
 
-use common::{composed, stage};
-use urdd_usd::{Stage, Value};
+use common::{composed, find, stage, take};
+use urdd_directory::account::Account;
+use urdd_usd::{Authored, Stage, Value};
 
 fn number(stage: &Stage, path: &str) -> f64 {
     let (_, property) = path.rsplit_once('.').unwrap();
-    let prim = &stage.prims[stage.find(path).unwrap_or_else(|| panic!("{path}"))];
-    prim.value(property).and_then(Value::number).unwrap_or_else(|| panic!("{path}"))
+    let prim = &stage.prims[find(stage, path).unwrap_or_else(|| panic!("{path}"))];
+    prim.value(property).and_then(Authored::number).unwrap_or_else(|| panic!("{path}"))
 }
 
 fn targets(stage: &Stage, path: &str) -> Vec<String> {
     let (_, property) = path.rsplit_once('.').unwrap();
-    let prim = &stage.prims[stage.find(path).unwrap()];
-    prim.targets(property).iter().map(|target| target.to_string()).collect()
+    let prim = &stage.prims[find(stage, path).unwrap()];
+    prim.targets(property)
+        .walk(&Account::default())
+        .unwrap()
+        .map(|target| target.to_string())
+        .collect()
 }
 
 #[test]
@@ -82,8 +87,8 @@ fn local_is_stronger_than_variants_references_and_payloads() {
     // An explicit list hides those of weaker opinions.
     assert_eq!(targets(&stage, "/a.to"), ["/a/child", "/a/child.local"]);
     assert_eq!(targets(&stage, "/a/child.local"), ["/a.local"]);
-    let child = &stage.prims[stage.find("/a/child").unwrap()];
-    assert_eq!(child.value("mesh"), Some(&Value::Asset("m.stl".into())));
+    let child = &stage.prims[find(&stage, "/a/child").unwrap()];
+    assert_eq!(take(child.value("mesh")), &Value::Asset("m.stl".into()));
     assert_eq!(stage.prims.len(), 2);
     assert_eq!(stage.layers.len(), 3);
 }
@@ -175,7 +180,7 @@ fn lists_edit_those_of_weaker_layers() {
     let prim = &stage.prims[0];
     let schemas: Vec<&str> = prim.schemas.iter().map(|name| &**name).collect();
     assert_eq!(schemas, ["One", "Three", "Old", "Two"]);
-    let data = prim.field("customData").unwrap();
+    let data = take(prim.field("customData"));
     assert_eq!(
         (data.get("x"), data.get("y")),
         (Some(&Value::Number(1.0)), Some(&Value::Number(2.0)))
@@ -210,16 +215,15 @@ fn words_of_text() {
         "##,
     );
     let a = &stage.prims[0];
-    let text = |name: &str| a.value(name).unwrap().text().unwrap().to_string();
+    let text = |name: &str| take(a.value(name)).text().unwrap().to_string();
     assert_eq!(text("s"), "one A A \n");
     assert_eq!(text("far"), "a@b@@@c");
     assert_eq!(a.value("v").unwrap().tuple(), Some([1.0, -0.5, f64::from(1e-3f32)]));
     assert_eq!(a.value("d").unwrap().number(), Some(f64::NEG_INFINITY));
     assert_eq!(a.value("moves").unwrap().number(), Some(4.0));
-    assert_eq!(a.value("m").unwrap().numbers().unwrap()[12..], [1.0, 2.0, 3.0, 1.0]);
-    assert_eq!(a.value("t").unwrap().texts().unwrap().len(), 2);
-    assert_eq!(a.value("none"), Some(&Value::Numbers { width: 1, values: [].into() }));
-    let targets: Vec<&str> = a.targets("r").iter().map(|path| &**path).collect();
-    assert_eq!(targets, ["/a/b", "/a.v"]);
+    assert_eq!(take(a.value("m")).numbers().unwrap()[12..], [1.0, 2.0, 3.0, 1.0]);
+    assert_eq!(take(a.value("t")).texts().unwrap().len(), 2);
+    assert_eq!(take(a.value("none")), &Value::Numbers { width: 1, values: [].into() });
+    assert_eq!(targets(&stage, "/a.r"), ["/a/b", "/a.v"]);
     assert_eq!(a.place.1, 4);
 }

@@ -17,8 +17,25 @@ pub fn sdf(bytes: &[u8]) {
     imported(bytes, "model.sdf");
 }
 
+/// A layer of text, with its first line.
 pub fn usd(bytes: &[u8]) {
-    imported(bytes, "robot.usd");
+    const FIRST: &[u8] = b"#usda 1.0\n";
+    match bytes.starts_with(FIRST) {
+        true => imported(bytes, "robot.usda"),
+        false => imported(&[FIRST, bytes].concat(), "robot.usda"),
+    }
+}
+
+/// A crate file, with its first bytes.
+pub fn usd_crate(bytes: &[u8]) {
+    const FIRST: &[u8] = b"PXR-USDC";
+    let rest = bytes.get(FIRST.len()..).unwrap_or_default();
+    imported(&[FIRST, rest].concat(), "robot.usdc");
+}
+
+/// A package: an archive of layers and meshes.
+pub fn usd_package(bytes: &[u8]) {
+    imported(bytes, "robot.usdz");
 }
 
 /// An import ends, whatever the bytes are. What it refuses has a reason; what it makes, both readers of URDF read as the

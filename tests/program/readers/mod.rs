@@ -17,7 +17,7 @@ mod yaml;
 
 pub use archive::archive;
 pub use archive_names::archive_names;
-pub use import::{mjcf, sdf, usd};
+pub use import::{mjcf, sdf, usd, usd_crate, usd_package};
 pub use json::json;
 pub use loops::loops;
 pub use mesh::{dae, glb, gltf, obj, stl};

@@ -12,6 +12,7 @@ use urdd_source::{ImportOptions, Settings};
 use crate::mjcf;
 use crate::model::{Body, Geometry, Joint, JointKind, Model, Shape, Use};
 use crate::place::{Placed, TextFile};
+use crate::tests::Entries as _;
 
 const NEAR: f64 = 1e-9;
 /// MuJoCo keeps vertices in 32 bits.
@@ -250,7 +251,7 @@ fn sites_and_cameras_are_frames() {
 }
 
 fn joint<'m>(model: &'m Model, name: &str) -> &'m Joint {
-    let mut joints = model.bodies.iter().flat_map(|body| &body.joints);
+    let mut joints = model.bodies.iter().flat_map(|body| body.joints.all());
     joints.find(|joint| joint.name == name).unwrap()
 }
 
@@ -357,7 +358,7 @@ fn the_robot_of_a_scene_is_what_is_driven() {
     assert_eq!(names(Some("left_arm")), ["left_arm"]);
     assert_eq!(names(Some("world")).len(), 9);
     let world = read("scene", Some("world"));
-    assert!(matches!(world.bodies[0].shapes[..], [Shape { used: Use::Both, .. }]));
+    assert!(matches!(world.bodies[0].shapes.all(), [Shape { used: Use::Both, .. }]));
     let remarks = read("scene", None).tally.remarks;
     assert!(remarks.iter().any(|of| of.text.contains("`drawer`, `target`")), "{remarks:?}");
 }

@@ -7,6 +7,7 @@ use std::time::Instant;
 use super::mjcf::of_text;
 use crate::model::Model;
 use crate::place::Placed;
+use crate::tests::Entries as _;
 
 fn read(text: &str) -> Result<Model, Placed> {
     of_text(Path::new("/nowhere/m.xml"), text.to_owned(), None)
@@ -55,10 +56,10 @@ fn what_is_wrong_is_said() {
         ("<replicate count=\"0\"><geom size=\"1\"/></replicate>", "not a number of replicas"),
         (
             "<replicate count=\"1000000000\"><geom size=\"1\"/></replicate>",
-            "more would be made of the description",
+            "needs more memory or work",
         ),
         // Nothing is in it.
-        ("<replicate count=\"1000000000\"/>", "more would be made of the description"),
+        ("<replicate count=\"1000000000\"/>", "needs more memory or work"),
         ("<attach model=\"x\" prefix=\"y\"/>", "`<attach>` names the model `x`"),
         ("<attach model=\"x\"/>", "`<attach>` needs the attribute `prefix`"),
         ("<include file=\"x.xml\"/>", "`x.xml` was not found"),
@@ -148,7 +149,7 @@ fn models_that_are_attached_are_bounded() {
     }
     std::fs::write(folder.path().join("6.xml"), world("<joint/><geom size=\"1\"/>")).unwrap();
     let start = Instant::now();
-    assert!(refused(attach("0.xml", 10)).contains("more would be made of the description"));
+    assert!(refused(attach("0.xml", 10)).contains("needs more memory or work"));
     assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
     // Each has one of the next one.
     for level in 0..12 {

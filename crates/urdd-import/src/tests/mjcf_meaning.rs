@@ -8,13 +8,14 @@ use urdd_format::loops::LoopKind;
 use super::mjcf::of_text;
 use crate::features::{self, Feature};
 use crate::model::{Joint, Model};
+use crate::tests::Entries as _;
 
 fn read(text: &str) -> Model {
     of_text(Path::new("/nowhere/m.xml"), text.to_owned(), None).unwrap()
 }
 
 fn joint<'m>(model: &'m Model, name: &str) -> &'m Joint {
-    let mut joints = model.bodies.iter().flat_map(|body| &body.joints);
+    let mut joints = model.bodies.iter().flat_map(|body| body.joints.all());
     joints.find(|joint| joint.name == name).unwrap()
 }
 
@@ -284,7 +285,7 @@ fn linkage(equality: &str) -> Model {
 fn what_closes_a_chain_has_its_frames_in_both_bodies() {
     let frames = |equality: &str| {
         let model = linkage(equality);
-        let [closing] = &model.closings[..] else { panic!("{}", remarks(&model)) };
+        let [closing] = model.closings.all() else { panic!("{}", remarks(&model)) };
         let ends = closing.ends.map(|end| (model.bodies[end.body].name.clone(), end.frame));
         (closing.kind, ends)
     };
@@ -320,7 +321,7 @@ fn what_closes_a_chain_has_its_frames_in_both_bodies() {
 fn a_polynomial_of_joints_is_an_equation() {
     let model =
         linkage(r#"<joint name="cam" joint1="b" joint2="a" polycoef="0.1 0.2 0.3 0.4 0.5"/>"#);
-    let [coupled] = &model.couplings[..] else { panic!("{}", remarks(&model)) };
+    let [coupled] = model.couplings.all() else { panic!("{}", remarks(&model)) };
     let value = |a: f64, b: f64| {
         let at = |name: &str| if name == "a" { a } else { b };
         let terms = coupled.terms.iter().map(|(name, coefficients)| {
@@ -341,7 +342,7 @@ fn a_polynomial_of_joints_is_an_equation() {
 #[test]
 fn a_joint_that_is_held_is_an_equation_of_it_alone() {
     let model = linkage(r#"<joint name="hold" joint1="a" polycoef="0.5 7 0 0 0"/>"#);
-    let [coupled] = &model.couplings[..] else { panic!("{}", remarks(&model)) };
+    let [coupled] = model.couplings.all() else { panic!("{}", remarks(&model)) };
     // a - 0.25 = 0.5
     assert_eq!((coupled.name.as_deref(), coupled.constant), (Some("hold"), -0.75));
     assert_eq!(coupled.terms, [("a".to_owned(), vec![1.0])]);
@@ -366,7 +367,7 @@ fn a_weld_that_holds_no_rotation_is_a_ball() {
         (r#"<weld site1="s" site2="t"/>"#, LoopKind::Fixed),
     ] {
         let model = linkage(equality);
-        let [closing] = &model.closings[..] else { panic!("{}", remarks(&model)) };
+        let [closing] = model.closings.all() else { panic!("{}", remarks(&model)) };
         assert_eq!(closing.kind, kind, "{equality}");
         if equality.contains("anchor") {
             // At its anchor: in the base where the model has it.

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::mjcf::of_text;
 use crate::features::{ONLY_COLLIDING, UNSEEN};
 use crate::model::{Model, Use};
+use crate::tests::Entries as _;
 
 fn read(geoms: &str) -> Model {
     let text = format!(

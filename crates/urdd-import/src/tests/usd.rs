@@ -11,6 +11,7 @@ use urdd_source::{Files, ImportOptions, Settings};
 
 use crate::model::{Body, Geometry, Joint, JointKind, Mimic, Model, Use};
 use crate::place::TextFile;
+use crate::tests::Entries as _;
 use crate::usd;
 
 pub(super) fn given(
@@ -162,7 +163,8 @@ fn configurations_have_a_value_for_each_dof() {
         "{}\ndef \"data\" ( customData = {{ dictionary urdd = {{ dictionary configurations = {{ dictionary \"home\" = {{ {values} }} }} }} }} ) {{}}",
         two("PhysicsSphericalJoint", "")
     );
-    let [home] = &inside(&text).configurations[..] else { panic!("one configuration") };
+    let model = inside(&text);
+    let [home] = model.configurations.all() else { panic!("one configuration") };
     assert_eq!((&*home.name, &*home.values[0].values), ("home", &[1.0, 2.0, 3.0][..]));
 }
 
@@ -272,7 +274,8 @@ fn joints_that_add_mobility_follow_each_other() {
         let joints = joint_of("s", "PhysicsPrismaticJoint", parent, "(0, 0, 0)")
             + &joint_of("h", "PhysicsRevoluteJoint", parent, "(0, 1, 0)");
         format!(
-            "def Xform \"r\" {{ {flag} def Xform \"b\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {{}}
+            "def Xform \"r\" {{ {flag}
+            def Xform \"b\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {{}}
             def Xform \"a\" (apiSchemas = [\"PhysicsRigidBodyAPI\"]) {{}} }}\n{joints}"
         )
     };
@@ -310,7 +313,7 @@ fn joints_that_articulations_exclude_close_chains() {
         + &joint_of("j", "b", "c", "point3f physics:localPos1 = (0, 0, 1)");
     let model = inside(&text);
     assert_eq!(body(&model, "c").joints[0].name, "j");
-    let [closing] = &model.closings[..] else { panic!("{:?}", model.closings) };
+    let [closing] = model.closings.all() else { panic!("{:?}", model.closings) };
     assert_eq!((closing.name.as_deref(), closing.kind), (Some("x"), LoopKind::Revolute));
     let [one, other] = &closing.ends;
     // z of the frames is the axis of the joint.

@@ -7,6 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::usd::{body, inside, joint};
 use crate::features;
 use crate::model::{JointKind, Model};
+use crate::tests::Entries as _;
 
 /// Two bodies with two joints between them, on an articulation of which one attribute is given. `ends` are the bodies of each
 /// joint.
@@ -86,7 +87,7 @@ fn joints_of_two_bodies_are_one_behind_the_other_where_the_stage_says_so() {
 fn names_that_no_urdf_can_hold_are_not_taken() {
     let text = "def Xform \"a\" (displayName = \"ev\\x1b[31mil\"
         apiSchemas = [\"PhysicsRigidBodyAPI\"]) {
-            def Cube \"c\" (displayName = \"two\\nlines\" apiSchemas = [\"PhysicsCollisionAPI\"]) {} }";
+            def Cube \"c\" (displayName = \"two\\nlines\"; apiSchemas = [\"PhysicsCollisionAPI\"]) {} }";
     let model = inside(text);
     let (link, shape) = (&model.bodies[0], &model.bodies[0].shapes[0]);
     assert_eq!((&*link.name, shape.name.as_deref()), ("a", Some("c")));

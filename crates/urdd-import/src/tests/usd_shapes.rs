@@ -6,6 +6,7 @@ use urdd_source::ImportOptions;
 use super::usd::{body, given, inside};
 use crate::features;
 use crate::model::{Geometry, Model, Shape, Use};
+use crate::tests::Entries as _;
 
 const HEAD: &str = "#usda 1.0\n( metersPerUnit = 1\n upAxis = \"Z\" )\n";
 
@@ -31,7 +32,7 @@ fn meshes_and_colours() {
                 color3f inputs:c = (0, 0, 1) }
         }",
     );
-    let [solid, side, rest] = &body(&model, "a").shapes[..] else { panic!("{:?}", model.bodies) };
+    let [solid, side, rest] = body(&model, "a").shapes.all() else { panic!("{:?}", model.bodies) };
     assert_eq!(
         (solid.used, solid.geometry.clone()),
         (Use::Collision, Geometry::Box([2.0, 1.0, 1.0]))
@@ -92,7 +93,7 @@ fn images_on_meshes() {
         (format!("{corners} \"uniform\" )"), 6),
     ] {
         let model = painted(&primvar, "./img/red.gif").expect("a model");
-        let [shape] = &body(&model, "a").shapes[..] else { panic!("one shape") };
+        let [shape] = body(&model, "a").shapes.all() else { panic!("one shape") };
         let Geometry::Mesh { asset, .. } = shape.geometry else { panic!("{:?}", shape.geometry) };
         let material = shape.material.as_ref().expect("a material");
         assert_eq!(material.rgba, Some([1.0, 1.0, 1.0, 0.25]));
@@ -119,7 +120,7 @@ fn images_that_are_left_out() {
         (&vertex.replace(", (0,1)]", "]"), "img/red.gif", "the image on `m` is left out"),
     ] {
         let model = painted(primvar, file).expect("a model");
-        let [asset] = &model.assets[..] else { panic!("{file}: {:?}", model.assets) };
+        let [asset] = model.assets.all() else { panic!("{file}: {:?}", model.assets) };
         assert_eq!(asset.path, "meshes/a_m.stl");
         let remarks = &model.tally.remarks;
         assert!(remarks.iter().any(|of| of.text.starts_with(why)), "{file}: {remarks:?}");
@@ -215,7 +216,7 @@ fn references_that_are_not_there() {
     assert_eq!(model.tally.number_of(features::MISSING_PARTS), 1);
     let remark = &model.tally.remarks[0].text;
     assert!(remark.contains("left out: `https://a.b/ground.usd` is not a file"), "{remark}");
-    let with = |more: &str| robot.replace("\"a\" (", &format!("\"a\" ( {more} "));
+    let with = |more: &str| robot.replace("\"a\" (", &format!("\"a\" ( {more}; "));
     let holder = robot.replace("\"robot\"", "\"robot\" (references = @x.usd@)");
     let joint = "def PhysicsFixedJoint \"j\" { rel physics:body0 = </robot/a>\n rel physics:body1 = </ground/b> }";
     for text in [

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
-use urdd_directory::account::Charged;
+use urdd_directory::account::{AccountError, Charged};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::path::file_name;
 use urdd_source::gate::Gate;
@@ -134,8 +134,8 @@ impl Door for GateDoor<'_> {
         Ok(bytes)
     }
 
-    fn charge(&mut self, bytes: usize) -> Result<(), String> {
-        self.gate.account().charge(bytes).map_err(|why| why.to_string())
+    fn charge(&self, cost: usize) -> Result<(), AccountError> {
+        self.gate.account().charge(cost)
     }
 }
 

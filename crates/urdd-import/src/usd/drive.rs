@@ -9,7 +9,7 @@ use super::joint::Motion;
 use super::scene::{Scene, number, word};
 use crate::features::{self, Tally};
 use crate::mjcf::{Actuator, Compiler, Driven, Element, give_all};
-use crate::model::{self, Body, Joint, JointKind};
+use crate::model::{self, Body, Joint, JointKind, LETTER};
 use crate::place::{Fallible, Placing};
 
 /// Forces of this or more are none.
@@ -76,6 +76,8 @@ pub fn drive(
 
 /// An actuator as an element, as bytes.
 const ELEMENT: usize = 1000;
+/// The same of a number in it, which is written and read again.
+const NUMBER: usize = 60;
 /// Attributes with one word or number, and with several numbers: of an MJCF, and of the schema.
 const WORDS: [(&str, &str); 5] = [
     ("gaintype", "gainType"),
@@ -105,7 +107,7 @@ pub fn give(
             "NewtonActuator" => "newton:targets",
             _ => continue,
         };
-        let joint = scene.target(prim, target).and_then(|target| of_joint.get(&target));
+        let joint = scene.target(index, target)?.and_then(|target| of_joint.get(&target));
         let is_one = |(body, joint): &&(usize, usize)| {
             let joint = &bodies[*body].joints[*joint];
             // Of a joint with a drive, the drive counts.
@@ -119,14 +121,16 @@ pub fn give(
         account.charge(ELEMENT).at(scene.place(index))?;
         let range = bodies[joint.0].joints[joint.1].range;
         let attributes = match target {
-            "mjc:target" => Some(of_mujoco(prim, range)),
+            "mjc:target" => Some(of_mujoco(scene, index, range)?),
             _ => of_newton(prim),
         };
         let Some(mut attributes) = attributes else {
             tally.count(features::OTHER_ACTUATORS);
             continue;
         };
-        attributes.push(("name".to_owned(), scene.name(index).to_owned()));
+        attributes.push(("name".to_owned(), scene.name(index)?.to_owned()));
+        let cost = attributes.iter().map(|(_, value)| LETTER * value.len()).sum();
+        account.charge(cost).at(scene.place(index))?;
         let element = Element::new("general".to_owned(), attributes, scene.place(index));
         found.push((element, *joint));
     }
@@ -147,7 +151,14 @@ pub fn give(
 type Attributes = Vec<(String, String)>;
 
 /// The attributes of a `<general>` of an MJCF, by MuJoCo's schema. `range` is that of the joint.
-fn of_mujoco(prim: &Prim, range: Option<[f64; 2]>) -> Attributes {
+fn of_mujoco(scene: &Scene<'_>, at: usize, range: Option<[f64; 2]>) -> Fallible<Attributes> {
+    let prim = scene.prim(at);
+    let numbers = |own: &str| -> Fallible<Option<&[f64]>> {
+        let numbers = scene.value(at, &format!("mjc:{own}"))?.and_then(Value::numbers);
+        let cost = NUMBER * numbers.map_or(0, <[f64]>::len);
+        scene.account.charge(cost).at(scene.place(at))?;
+        Ok(numbers)
+    };
     let mut attributes = Attributes::new();
     let mut set = |name: &str, value: Option<String>| {
         attributes.extend(value.map(|value| (name.to_owned(), value)));
@@ -156,7 +167,7 @@ fn of_mujoco(prim: &Prim, range: Option<[f64; 2]>) -> Attributes {
         set(name, word(prim, &format!("mjc:{own}")).map(str::to_owned));
     }
     for (name, own) in LISTS {
-        set(name, prim.value(&format!("mjc:{own}")).and_then(Value::numbers).map(text));
+        set(name, numbers(own)?.map(text));
     }
     for (name, own) in RANGES {
         let ends = ["min", "max"].map(|end| number(prim, &format!("mjc:{own}:{end}")));
@@ -164,16 +175,17 @@ fn of_mujoco(prim: &Prim, range: Option<[f64; 2]>) -> Attributes {
         set(name, is_said.then(|| text(&ends.map(Option::unwrap_or_default))));
     }
     // Of a servo of position, which alone has it, control is told in the units of the joint.
-    let first = |name: &str, place: usize| prim.value(name)?.numbers()?.get(place).copied();
+    let [bias, gain] = [numbers("biasPrm")?, numbers("gainPrm")?];
+    let first = |numbers: Option<&[f64]>, place: usize| numbers?.get(place).copied();
     let is_servo = word(prim, "mjc:biasType") == Some("affine")
-        && first("mjc:biasPrm", 1) == first("mjc:gainPrm", 0).map(|gain| -gain);
+        && first(bias, 1) == first(gain, 0).map(|gain| -gain);
     let part = number(prim, "mjc:inheritRange").filter(|part| *part > 0.0 && is_servo);
     if let (Some(part), Some([least, most])) = (part, range) {
         let (middle, half) = ((least + most) / 2.0, (most - least) / 2.0 * part);
         attributes.retain(|(name, _)| !name.starts_with("ctrl"));
         attributes.push(("ctrlrange".to_owned(), text(&[middle - half, middle + half])));
     }
-    attributes
+    Ok(attributes)
 }
 
 /// The same, of a spring and a damper of Newton's schema; other laws have none.

@@ -1,20 +1,23 @@
 //! What the shapes of USD are in a model: primitives, meshes as triangles, and how they look.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use nalgebra::{
     Isometry3, Matrix2, Matrix2x3, Matrix3, Rotation2, Translation3, UnitQuaternion, Vector2,
     Vector3,
 };
+use urdd_directory::account::AccountError;
 use urdd_geometry::mesh::Bounds;
 use urdd_geometry::{Mesh, primitives};
 use urdd_kinematics::rotation::from_z;
-use urdd_usd::{Prim, Property, Value};
+use urdd_usd::{Authored, Prim, Property, Value};
 
 use super::scene::{Scene, number, word};
 use crate::features::{self, Tally};
 use crate::graph::cone;
 use crate::model::{Geometry, Material};
+use crate::place::{Fallible, Placing};
 
 /// Two scales that differ by less are one: those of single precision.
 const NEAR: f64 = 1e-5;
@@ -122,6 +125,9 @@ pub fn reach(mesh: &Mesh) -> f64 {
     mesh.vertices.iter().map(|point| (Vector3::from(*point) - middle).norm()).fold(0.0, f64::max)
 }
 
+/// A part of a mesh is large if it has more than one in so many triangles.
+const LARGE: usize = 8;
+
 /// Why a mesh is left out.
 pub type Problem = &'static str;
 
@@ -133,19 +139,33 @@ pub struct Faces {
 }
 
 /// Reads a mesh. Faces of more corners become fans; points are moved by a matrix, whose mirrors turn faces round.
-pub fn faces(prim: &Prim, linear: &Matrix3<f64>) -> Result<Faces, Problem> {
-    let numbers = |name: &str| prim.value(name).and_then(Value::numbers);
-    let points = numbers("points").filter(|points| !points.is_empty()).ok_or("it has no points")?;
-    let counts = numbers("faceVertexCounts").unwrap_or_default();
-    let indices = numbers("faceVertexIndices").unwrap_or_default();
+pub fn faces(
+    scene: &Scene<'_>,
+    prim: usize,
+    linear: &Matrix3<f64>,
+) -> Fallible<Result<Faces, Problem>> {
+    let numbers = |name| Ok(scene.value(prim, name)?.and_then(Value::numbers).unwrap_or_default());
+    let [points, counts, indices] =
+        [numbers("points")?, numbers("faceVertexCounts")?, numbers("faceVertexIndices")?];
+    let is_left = word(scene.prim(prim), "orientation") == Some("leftHanded");
+    Ok(triangulated([points, counts, indices], is_left, linear))
+}
+
+fn triangulated(
+    [points, counts, indices]: [&[f64]; 3],
+    is_left: bool,
+    linear: &Matrix3<f64>,
+) -> Result<Faces, Problem> {
+    if points.is_empty() {
+        return Err("it has no points");
+    }
     let (triples, rest) = points.as_chunks::<3>();
     if !rest.is_empty() {
         return Err("its points do not have three numbers each");
     }
     let vertices: Vec<[f64; 3]> =
         triples.iter().map(|point| (linear * Vector3::from(*point)).into()).collect();
-    let is_turned =
-        (word(prim, "orientation") == Some("leftHanded")) != (linear.determinant() < 0.0);
+    let is_turned = is_left != (linear.determinant() < 0.0);
     let (mut triangles, mut of_triangle, mut corners) = (Vec::new(), Vec::new(), Vec::new());
     let mut first = 0;
     for (face, count) in counts.iter().enumerate() {
@@ -167,36 +187,57 @@ pub fn faces(prim: &Prim, linear: &Matrix3<f64>) -> Result<Faces, Problem> {
 }
 
 impl Faces {
-    /// The triangles of some faces.
-    pub fn part(&self, is_of: impl Fn(u32) -> bool) -> Mesh {
-        let all = self.mesh.triangles.iter().zip(&self.of_triangle);
-        let triangles =
-            all.filter(|(_, face)| is_of(**face)).map(|(triangle, _)| *triangle).collect();
-        let mut mesh = Mesh { vertices: self.mesh.vertices.clone(), triangles };
-        mesh.drop_unused_vertices();
-        mesh
+    /// The places of the triangles of a face.
+    pub fn of_face(&self, face: u32) -> Range<usize> {
+        let before = |least: u64| self.of_triangle.partition_point(|of| u64::from(*of) < least);
+        before(face.into())..before(u64::from(face) + 1)
+    }
+
+    /// Some of the triangles.
+    pub fn part(&self, places: &[usize]) -> Mesh {
+        let triangles: Vec<[u32; 3]> = places.iter().map(|at| self.mesh.triangles[*at]).collect();
+        if triangles.len() > self.mesh.triangles.len() / LARGE {
+            let mut mesh = Mesh { vertices: self.mesh.vertices.clone(), triangles };
+            mesh.drop_unused_vertices();
+            return mesh;
+        }
+        // Of a small part, its own vertices alone are looked at: there may be many parts.
+        let mut used = triangles.concat();
+        used.sort_unstable();
+        used.dedup();
+        let place = |of: u32| used.binary_search(&of).unwrap_or_default() as u32;
+        let vertices = used.iter().map(|of| self.mesh.vertices[*of as usize]).collect();
+        Mesh { vertices, triangles: triangles.iter().map(|of| of.map(place)).collect() }
     }
 
     /// The same with places in an image, one for each vertex; none if the mesh does not say them.
     pub fn painted(
         &self,
-        prim: &Prim,
+        scene: &Scene<'_>,
+        prim: usize,
         image: &Image,
-        is_of: impl Fn(u32) -> bool,
-    ) -> Option<(Mesh, Vec<[f64; 2]>)> {
+        places: &[usize],
+    ) -> Fallible<Option<(Mesh, Vec<[f64; 2]>)>> {
         let name = format!("primvars:{}", image.primvar);
-        let of = prim.property(&name)?;
-        let (pairs, _) = of.value.as_ref()?.numbers()?.as_chunks::<2>();
-        let indices = prim.value(&format!("{name}:indices")).and_then(Value::numbers);
-        let kind = of.fields.iter().find(|(name, _)| **name == *"interpolation");
-        let kind = kind.and_then(|(_, kind)| kind.text()).map_or("constant", |kind| kind);
+        let numbers = |name: &str| Ok(scene.value(prim, name)?.and_then(Value::numbers));
+        let Some(pairs) = numbers(&name)? else { return Ok(None) };
+        let indices = numbers(&format!("{name}:indices"))?;
+        let of = scene.prim(prim).property(&name);
+        let kind = of.and_then(|of| of.field("interpolation")?.word()).unwrap_or("constant");
+        Ok(self.placed(image, (pairs, indices, kind), places))
+    }
+
+    fn placed(
+        &self,
+        image: &Image,
+        (pairs, indices, kind): (&[f64], Option<&[f64]>, &str),
+        places: &[usize],
+    ) -> Option<(Mesh, Vec<[f64; 2]>)> {
+        let (pairs, _) = pairs.as_chunks::<2>();
         let (mut mesh, mut uv) = (Mesh::default(), Vec::new());
         let mut known: HashMap<(u32, usize), u32> = HashMap::new();
-        for (at, triangle) in self.mesh.triangles.iter().enumerate() {
-            let face = self.of_triangle[at];
-            if !is_of(face) {
-                continue;
-            }
+        for at in places.iter().copied() {
+            let (triangle, face) = (&self.mesh.triangles[at], self.of_triangle[at]);
             let mut corners = [0; 3];
             for side in 0..3 {
                 let place = match kind {
@@ -251,88 +292,105 @@ pub fn look(
     prim: usize,
     subset: Option<usize>,
     tally: &mut Tally,
-) -> (Option<Material>, Option<Image>) {
+) -> Fallible<(Option<Material>, Option<Image>)> {
     let [seen, preview, _] = &scene.material;
     let part = subset.unwrap_or(prim);
     let material = seen[part].or(preview[part]);
-    let (rgba, image) = material.map_or((None, None), |material| of_material(scene, material));
+    let look = material.map(|material| of_material(scene, material)).transpose()?;
+    let (rgba, image) = look.unwrap_or_default();
     if let (Some(material), true) = (material, rgba.is_some() || image.is_some()) {
         tally.count(features::COLOURS);
-        let name = Some(scene.name(material).to_owned());
-        return (Some(Material { name, rgba, texture: None }), image);
+        let name = Some(scene.name(material)?.to_owned());
+        return Ok((Some(Material { name, rgba, texture: None }), image));
     }
-    let of = scene.prim(prim);
-    let first =
-        |name: &str| of.value(name).and_then(Value::numbers).filter(|numbers| !numbers.is_empty());
-    let Some(&[r, g, b, ..]) = first("primvars:displayColor") else { return (None, None) };
-    let alpha = first("primvars:displayOpacity").map_or(1.0, |values| values[0]);
+    let first = |name| Ok(scene.value(prim, name)?.and_then(Value::numbers).unwrap_or_default());
+    let &[r, g, b, ..] = first("primvars:displayColor")? else { return Ok((None, None)) };
+    let alpha = first("primvars:displayOpacity")?.first().copied().unwrap_or(1.0);
     tally.count(features::COLOURS);
-    (Some(Material { name: None, rgba: Some(shown([r, g, b], alpha)), texture: None }), None)
+    let rgba = Some(shown([r, g, b], alpha));
+    Ok((Some(Material { name: None, rgba, texture: None }), None))
 }
 
 /// The colour of a material, and its image.
-fn of_material(scene: &Scene<'_>, material: usize) -> (Option<[f64; 4]>, Option<Image>) {
-    let of = scene.prim(material);
-    let outputs = ["outputs:surface", "outputs:mdl:surface"];
-    let Some(shader) = outputs.iter().find_map(|name| scene.target(of, name)) else {
-        return (None, None);
+fn of_material(scene: &Scene<'_>, material: usize) -> Fallible<(Option<[f64; 4]>, Option<Image>)> {
+    let (mut shader, place) = (None, scene.place(material));
+    for name in ["outputs:surface", "outputs:mdl:surface"] {
+        shader = shader.or(scene.target(material, name)?);
+    }
+    let Some(shader) = shader else { return Ok((None, None)) };
+    let source = |of: usize, name: &str| source(scene, of, name).at(place);
+    let sources = |names: &[&str]| {
+        let found = names.iter().map(|name| source(shader, name));
+        found.filter_map(Result::transpose).next().transpose()
     };
-    let shader = scene.prim(shader);
-    let sources = |names: &[&str]| names.iter().find_map(|name| source(scene, shader, name));
-    let opacity = sources(&["inputs:opacity", "inputs:opacity_constant"]);
-    let alpha = opacity.and_then(|(_, of)| of.value.as_ref()?.number()).unwrap_or(1.0);
+    let opacity = sources(&["inputs:opacity", "inputs:opacity_constant"])?;
+    let alpha = opacity.and_then(|(_, of)| of.value()?.number()).unwrap_or(1.0);
     let rgba = shown([1.0; 3], alpha);
     let colour =
-        sources(&["inputs:diffuseColor", "inputs:diffuse_color_constant", "inputs:diffuse_tint"]);
-    let colour_of = |value: Option<&Value>| Some(shown(value?.tuple::<3>()?, alpha));
-    let file = |of: &Prim, name: &str| {
-        let file = source(scene, of, name)?.1.value.as_ref()?.text()?;
-        Some(file.to_string()).filter(|file| !file.is_empty())
+        sources(&["inputs:diffuseColor", "inputs:diffuse_color_constant", "inputs:diffuse_tint"])?;
+    let colour_of = |value: Option<Authored<'_>>| Some(shown(value?.tuple::<3>()?, alpha));
+    let file = |of: usize, name: &str| {
+        let Some((_, file)) = source(of, name)? else { return Ok(None) };
+        Ok(text(scene, file).at(place)?.filter(|file| !file.is_empty()))
     };
     if let Some((texture, _)) = colour
-        && let Some(file) = file(texture, "inputs:file")
+        && let Some(file) = file(texture, "inputs:file")?
     {
-        let (primvar, moved) = placing(scene, texture);
+        let (primvar, moved) = placing(scene, texture).at(place)?;
         let image = Image { file, primvar, moved, rgba };
-        let own = shader.value("inputs:diffuseColor");
-        return (colour_of(texture.value("inputs:fallback").or(own)), Some(image));
+        let own = scene.prim(shader).value("inputs:diffuseColor");
+        let fallback = scene.prim(texture).value("inputs:fallback");
+        return Ok((colour_of(fallback.or(own)), Some(image)));
     }
-    let rgba_of = colour.and_then(|(_, of)| colour_of(of.value.as_ref()));
-    let image = file(shader, "inputs:diffuse_texture");
-    let (primvar, moved) = placing(scene, shader);
-    (rgba_of, image.map(|file| Image { file, primvar, moved, rgba }))
+    let rgba_of = colour.and_then(|(_, of)| colour_of(of.value()));
+    let image = file(shader, "inputs:diffuse_texture")?;
+    let (primvar, moved) = placing(scene, shader).at(place)?;
+    Ok((rgba_of, image.map(|file| Image { file, primvar, moved, rgba })))
 }
 
 /// The primvar by which a texture is placed, and what moves it.
-fn placing(scene: &Scene<'_>, texture: &Prim) -> (String, Matrix2x3<f64>) {
+fn placing(scene: &Scene<'_>, texture: usize) -> Result<(String, Matrix2x3<f64>), AccountError> {
     let mut moved = Matrix2x3::identity();
-    let mut of = source(scene, texture, "inputs:st").map(|(prim, _)| prim);
-    if let Some(turned) = of.filter(|of| of.property("inputs:in").is_some()) {
-        let pair = |name: &str| turned.value(name).and_then(Value::tuple::<2>).map(Vector2::from);
-        let angle = number(turned, "inputs:rotation").unwrap_or(0.0).to_radians();
+    let mut of = source(scene, texture, "inputs:st")?.map(|(prim, _)| prim);
+    if let Some(turned) = of.filter(|of| scene.prim(*of).property("inputs:in").is_some()) {
+        let own = scene.prim(turned);
+        let pair = |name: &str| own.value(name).and_then(Authored::tuple::<2>).map(Vector2::from);
+        let angle = number(own, "inputs:rotation").unwrap_or(0.0).to_radians();
         let scale = Matrix2::from_diagonal(&pair("inputs:scale").unwrap_or(Vector2::repeat(1.0)));
         let turn = Rotation2::new(angle).into_inner() * scale;
         let shift = pair("inputs:translation").unwrap_or_default();
         moved = Matrix2x3::from_columns(&[turn.column(0).into(), turn.column(1).into(), shift]);
-        of = source(scene, turned, "inputs:in").map(|(prim, _)| prim);
+        of = source(scene, turned, "inputs:in")?.map(|(prim, _)| prim);
     }
-    let name = of.and_then(|of| source(scene, of, "inputs:varname")?.1.value.as_ref()?.text());
-    (name.map_or("st", |name| name).to_owned(), moved)
+    let name = of.map(|of| source(scene, of, "inputs:varname")).transpose()?.flatten();
+    let name = name.map(|(_, of)| text(scene, of)).transpose()?.flatten();
+    Ok((name.unwrap_or_else(|| "st".to_owned()), moved))
+}
+
+/// The text that a property says.
+fn text(scene: &Scene<'_>, of: &Property) -> Result<Option<String>, AccountError> {
+    let value = of.value().map(|value| value.take(&scene.account)).transpose()?;
+    Ok(value.and_then(Value::text).map(ToString::to_string))
 }
 
 /// What an input is connected to in the end, through others: the prim and its property.
-fn source<'s>(scene: &Scene<'s>, shader: &'s Prim, name: &str) -> Option<(&'s Prim, &'s Property)> {
-    let mut of = (shader, shader.property(name)?);
+fn source<'s>(
+    scene: &Scene<'s>,
+    shader: usize,
+    name: &str,
+) -> Result<Option<(usize, &'s Property)>, AccountError> {
+    let Some(own) = scene.prim(shader).property(name) else { return Ok(None) };
+    let mut of = (shader, own);
     for _ in 0..MOST_STEPS {
-        let Some(target) = of.1.targets.first() else { break };
-        let (_, name) = target.split_once('.')?;
-        let prim = scene.prim(scene.stage.find(target)?);
-        match prim.property(name) {
+        let Some(target) = of.1.targets().first() else { break };
+        let found = scene.stage.find(target, &scene.account)?;
+        let Some((prim, (_, name))) = found.zip(target.split_once('.')) else { return Ok(None) };
+        match scene.prim(prim).property(name) {
             Some(next) => of = (prim, next),
             None => break,
         }
     }
-    Some(of)
+    Ok(Some(of))
 }
 
 /// A colour of light as one of a screen (sRGB), which URDF has; to 6 digits, which single precision gives.

@@ -10,7 +10,7 @@ use urdd_usd::Value;
 use super::scene::{Scene, is_name, is_site};
 use crate::features::{self, Tally};
 use crate::mass;
-use crate::model::{Body, Configuration, JointValue, Model};
+use crate::model::{Body, Configuration, JointValue, LETTER, Model};
 use crate::place::{Fallible, Placing};
 use crate::tree::Names;
 
@@ -58,7 +58,7 @@ pub fn frames(
         let place = scene.place(prim);
         let pose = scene.frame(body)?.0.inverse() * scene.frame(prim)?.0;
         let pose = clean(Translation3::from(-made.shifts[index]) * pose);
-        let name = names.free(scene.name(prim)).at(place)?;
+        let name = names.free(scene.name(prim)?).at(place)?;
         tally.count(features::FRAMES);
         let frame = Body { is_frame: true, ..Body::new(name, Some(index), pose, place) };
         made.bodies.push(frame, account).at(place)?;
@@ -75,9 +75,10 @@ pub fn configurations(
 ) -> Fallible<Charged<Configuration>> {
     let mut all = Charged::default();
     for (prim, of) in scene.stage.prims.iter().enumerate() {
-        let data = of.field("customData").and_then(|data| data.get("urdd")?.get("configurations"));
-        let Some(Value::Dictionary(named)) = data else { continue };
         let place = scene.place(prim);
+        let data = of.field("customData").map(|data| data.take(account)).transpose().at(place)?;
+        let data = data.and_then(|data| data.get("urdd")?.get("configurations"));
+        let Some(Value::Dictionary(named)) = data else { continue };
         for (name, values) in named.iter() {
             let Value::Dictionary(values) = values else { continue };
             if !is_name(name) {
@@ -92,6 +93,7 @@ pub fn configurations(
                 Configuration { name: name.to_string(), values: Charged::default(), base: None };
             for (body, part) in made.bodies.walk(account).at(place)?.enumerate() {
                 for (which, joint) in part.joints.walk(account).at(place)?.enumerate() {
+                    account.charge(LETTER * joint.name.len()).at(place)?;
                     let dofs = joint.kind.dofs().iter();
                     let name = joint.name.clone();
                     let values = dofs.map(|dof| known.get(&*format!("{name}{dof}")).copied());

@@ -10,7 +10,7 @@ use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::read::{Part, Texture};
 use urdd_geometry::write::{obj, stl};
 use urdd_source::gate::Gate;
-use urdd_usd::Value;
+use urdd_usd::{Authored, Value};
 
 use super::assets::Assets;
 use super::form::{Faces, Form, Problem, bounding, faces, form, look, reach, rubbed};
@@ -109,8 +109,9 @@ impl<'a, 's> Shapes<'a, 's> {
             true => Matrix3::from_diagonal(&scale),
             false => rotation.inverse().to_rotation_matrix().matrix() * linear,
         };
-        let name = scene.name(prim).to_owned();
+        let name = scene.name(prim)?.to_owned();
         let link_name = made.bodies[index].name.clone();
+        self.assets.gate.account().charge(link_name.len() + name.len()).at(place)?;
         let mut push = |this: &mut Self,
                         used,
                         form: Form,
@@ -145,9 +146,9 @@ impl<'a, 's> Shapes<'a, 's> {
                 (false, _) => Use::Visual,
             };
             let (material, image) =
-                if is_seen { look(scene, prim, None, tally) } else { (None, None) };
+                if is_seen { look(scene, prim, None, tally)? } else { (None, None) };
             if image.is_some() {
-                unplaced(scene, prim, tally);
+                unplaced(scene, prim, tally)?;
             }
             return push(self, used, form, (material, Vec::new()), &name, tally);
         }
@@ -199,12 +200,8 @@ impl<'a, 's> Shapes<'a, 's> {
     ) -> Fallible<Result<Arc<Faces>, Problem>> {
         let of = self.scene.prim(prim);
         let shape = of.properties.iter().filter(|of| !of.name.contains("normals"));
-        let numbers = shape.filter_map(|of| of.value.as_ref()?.numbers());
-        let numbers: usize = numbers.map(<[f64]>::len).sum();
-        let address = |name| {
-            let numbers = of.value(name).and_then(Value::numbers);
-            numbers.map_or(0, |numbers| numbers.as_ptr().addr())
-        };
+        let numbers: usize = shape.filter_map(|of| Some(of.value()?.len())).sum();
+        let address = |name| of.value(name).map_or(0, Authored::address);
         let mut bits = [0; 9];
         bits.iter_mut().zip(stretch.iter()).for_each(|(bits, of)| *bits = of.to_bits());
         let key = (
@@ -218,7 +215,7 @@ impl<'a, 's> Shapes<'a, 's> {
         if let Some(known) = known {
             return Ok(Ok(known));
         }
-        Ok(faces(of, stretch).map(|faces| {
+        Ok(faces(self.scene, prim, stretch)?.map(|faces| {
             let faces = Arc::new(faces);
             self.read.insert(key, Arc::clone(&faces));
             faces
@@ -235,14 +232,13 @@ impl<'a, 's> Shapes<'a, 's> {
             if &*of.type_name != "GeomSubset" || of.targets("material:binding").is_empty() {
                 continue;
             }
-            let indices = of.value("indices").and_then(Value::numbers).unwrap_or_default();
-            let own: BTreeSet<u32> = indices
-                .iter()
+            let indices = scene.value(*child, "indices")?.and_then(Value::numbers);
+            let own: BTreeSet<u32> = (indices.unwrap_or_default().iter())
                 .map(|index| *index as u32)
                 .filter(|face| !taken.contains(face))
                 .collect();
-            let is_own = |face| own.contains(&face);
-            let part = self.painted((prim, Some(*child)), faces, &is_own, tally)?;
+            let places: Vec<usize> = own.iter().flat_map(|face| faces.of_face(*face)).collect();
+            let part = self.painted((prim, Some(*child)), faces, &places, tally)?;
             taken.extend(own);
             if !part.mesh.triangles.is_empty() {
                 tally.count(features::SUBMESHES);
@@ -250,7 +246,9 @@ impl<'a, 's> Shapes<'a, 's> {
             }
         }
         if taken.len() < faces.of_triangle.len() {
-            let rest = self.painted((prim, None), faces, &|face| !taken.contains(&face), tally)?;
+            let each = faces.of_triangle.iter().enumerate();
+            let rest = each.filter(|(_, face)| !taken.contains(face)).map(|(at, _)| at);
+            let rest = self.painted((prim, None), faces, &rest.collect::<Vec<_>>(), tally)?;
             if all.is_empty() || !rest.mesh.triangles.is_empty() {
                 all.push(rest);
             }
@@ -263,14 +261,14 @@ impl<'a, 's> Shapes<'a, 's> {
         &mut self,
         (prim, subset): (usize, Option<usize>),
         faces: &Faces,
-        is_of: &dyn Fn(u32) -> bool,
+        places: &[usize],
         tally: &mut Tally,
     ) -> Fallible<Seen> {
         let (scene, place) = (self.scene, self.scene.place(prim));
-        let name = subset.map(|subset| scene.name(subset).to_owned());
-        let (material, image) = look(scene, prim, subset, tally);
+        let name = subset.map(|subset| scene.name(subset)).transpose()?.map(str::to_owned);
+        let (material, image) = look(scene, prim, subset, tally)?;
         if let Some(image) = image {
-            match faces.painted(scene.prim(prim), &image, is_of) {
+            match faces.painted(scene, prim, &image, places)? {
                 Some((mesh, uv)) => {
                     if let Some(texture) = self.assets.image(&image.file, place, tally)? {
                         tally.count(features::TEXTURES);
@@ -279,10 +277,10 @@ impl<'a, 's> Shapes<'a, 's> {
                         return Ok(Seen { name, mesh, uv, material });
                     }
                 }
-                None => unplaced(scene, prim, tally),
+                None => unplaced(scene, prim, tally)?,
             }
         }
-        Ok(Seen { name, mesh: faces.part(is_of), uv: Vec::new(), material })
+        Ok(Seen { name, mesh: faces.part(places), uv: Vec::new(), material })
     }
 
     /// A mesh as a file: STL, or OBJ where it has an image. None of a mesh without triangles.
@@ -309,7 +307,7 @@ impl<'a, 's> Shapes<'a, 's> {
         if let (Ok(bytes), false) = (written, is_empty) {
             return self.assets.mesh(bytes, name, ending, place).map(Some);
         }
-        let name = self.scene.name(prim);
+        let name = self.scene.name(prim)?;
         let text = format!("the mesh `{name}` is left out: it has no triangles");
         tally.say(features::MISSING_MESHES, place, text);
         Ok(None)
@@ -332,9 +330,10 @@ impl<'a, 's> Shapes<'a, 's> {
 }
 
 /// Says that an image is left out.
-fn unplaced(scene: &Scene<'_>, prim: usize, tally: &mut Tally) {
-    let name = scene.name(prim);
+fn unplaced(scene: &Scene<'_>, prim: usize, tally: &mut Tally) -> Fallible<()> {
+    let name = scene.name(prim)?;
     let text =
         format!("the image on `{name}` is left out: the shape does not say where it is on it");
     tally.say(features::MISSING_MESHES, scene.place(prim), text);
+    Ok(())
 }

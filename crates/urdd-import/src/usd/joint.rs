@@ -11,7 +11,7 @@ use crate::fault::UsdFault;
 use crate::features::{self, Tally};
 use crate::graph::{Branch, Forest};
 use crate::model::JointKind;
-use crate::place::{Fallible, at};
+use crate::place::{Fallible, Placing, at};
 
 /// The motions of a generic joint, in the order in which they follow each other.
 pub const MOTIONS: [&str; 6] = ["transX", "transY", "transZ", "rotX", "rotY", "rotZ"];
@@ -73,17 +73,17 @@ pub fn joints(scene: &Scene<'_>, tally: &mut Tally) -> Fallible<Vec<UsdJoint>> {
         if !is_joint(prim) {
             continue;
         }
-        let is_lost = |end| !prim.targets(end).is_empty() && scene.target(prim, end).is_none();
+        let is_lost = |end| Ok(!prim.targets(end).is_empty() && scene.target(at, end)?.is_none());
         if !flag(prim, "physics:jointEnabled", true)
             || &*prim.type_name == "PhysicsDistanceJoint"
-            || is_lost("physics:body0")
-            || is_lost("physics:body1")
+            || is_lost("physics:body0")?
+            || is_lost("physics:body1")?
         {
             tally.count(features::DISTANCES);
             continue;
         }
         let (motions, whole) = motions(scene, prim, tally);
-        let ends = [end(scene, prim, 0)?, end(scene, prim, 1)?];
+        let ends = [end(scene, at, 0)?, end(scene, at, 1)?];
         if ends[0].body == ends[1].body {
             continue;
         }
@@ -96,14 +96,15 @@ pub fn joints(scene: &Scene<'_>, tally: &mut Tally) -> Fallible<Vec<UsdJoint>> {
 }
 
 /// The frame of a joint in the body of one of its ends.
-fn end(scene: &Scene<'_>, prim: &Prim, which: usize) -> Fallible<JointEnd> {
+fn end(scene: &Scene<'_>, joint: usize, which: usize) -> Fallible<JointEnd> {
+    let prim = scene.prim(joint);
     let place = triple(prim, &format!("physics:localPos{which}")).unwrap_or_default();
     let rotation = turn(prim, &format!("physics:localRot{which}")).unwrap_or_default();
     let frame = |scale: Vector3<f64>| {
         let place = place.component_mul(&scale) * scene.metre;
         Isometry3::from_parts(Translation3::from(place), rotation)
     };
-    let Some(target) = scene.target(prim, &format!("physics:body{which}")) else {
+    let Some(target) = scene.target(joint, &format!("physics:body{which}"))? else {
         return Ok(JointEnd { body: None, frame: frame(Vector3::repeat(1.0)) });
     };
     let (own, scale) = scene.frame(target)?;
@@ -289,7 +290,7 @@ pub fn graph(
     let main = main_set(scene, joints, &bodies, &index, wanted, &mut forest)?;
     let is_main: Vec<bool> = (0..bodies.len()).map(|body| forest.set(body) == main.set).collect();
     for left in (0..bodies.len()).filter(|body| !is_main[*body]) {
-        let name = scene.name(bodies[left]);
+        let name = scene.name(bodies[left])?;
         let text = format!("body `{name}` is left out: no joint connects it with the robot");
         tally.say(features::DETACHED_BODIES, scene.place(bodies[left]), text);
     }
@@ -340,8 +341,13 @@ fn main_set(
     let wanted = match wanted {
         None => None,
         Some(name) => {
-            let is_it = |body: &usize| scene.name(*body) == name || scene.stage.path(*body) == name;
-            let found = bodies.iter().position(is_it);
+            let by_path = scene.stage.find(name, &scene.account).at(Default::default())?;
+            let mut found = by_path.and_then(|prim| index.get(&prim).copied());
+            for (at, body) in bodies.iter().enumerate() {
+                if found.is_none() && scene.name(*body)? == name {
+                    found = Some(at);
+                }
+            }
             let missing = || at(Default::default(), UsdFault::NoSuchBody(name.to_owned()));
             Some(found.ok_or_else(missing)?)
         }

@@ -1,7 +1,7 @@
 //! Masses of bodies: what they say, and what follows from the shapes that collide.
 
 use nalgebra::{Matrix3, Point3, UnitQuaternion};
-use urdd_usd::{Prim, Value};
+use urdd_usd::{Authored, Prim};
 
 use super::form::rubbed;
 use super::frames::Made;
@@ -34,7 +34,7 @@ pub fn add(
         let diagonal = triple(of, "physics:diagonalInertia")
             .filter(|moments| moments.iter().any(|moment| *moment != 0.0));
         let unit = scene.kilogram * scene.metre.powi(2);
-        let full = of.value("newton:inertia").and_then(Value::numbers).and_then(full);
+        let full = of.value("newton:inertia").and_then(Authored::numbers).and_then(full);
         let along_axes = diagonal.map(|diagonal| {
             let axes = turn(of, "physics:principalAxes").unwrap_or_else(UnitQuaternion::identity);
             turned(&Matrix3::from_diagonal(&diagonal), &axes)
@@ -73,8 +73,7 @@ pub fn add(
 }
 
 /// The inertia that Newton's schema says: xx, yy, zz, xy, xz, yz. None of an empty array, which says nothing.
-fn full(numbers: &[f64]) -> Option<Matrix3<f64>> {
-    let numbers: [f64; 6] = numbers.try_into().ok()?;
+fn full(numbers: [f64; 6]) -> Option<Matrix3<f64>> {
     let is_said = numbers[..3].iter().any(|moment| *moment > 0.0);
     (is_said && numbers.iter().all(|number| number.is_finite())).then(|| tensor(numbers))
 }

@@ -13,13 +13,14 @@ mod scene;
 
 use std::collections::BTreeMap;
 
+use urdd_directory::account::{Account, AccountError};
 use urdd_source::ImportOptions;
 use urdd_source::gate::Gate;
 use urdd_usd::{Place as LayerPlace, Stage, UsdError};
 
 use crate::fault::UsdFault;
 use crate::model::Model;
-use crate::place::{Placed, TextFile, placed};
+use crate::place::{Placed, Placing, TextFile, placed};
 use assets::GateDoor;
 use joint::is_joint;
 use robot::robot;
@@ -46,11 +47,12 @@ pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Mode
         Placed { file: own.to_owned(), line, column, fault }
     };
     let stage = opened.map_err(refused)?;
-    if let Some(error) = needed(&stage) {
-        return Err(refused(error.clone()));
-    }
     let files: Vec<TextFile> =
         stage.layers.iter().filter_map(|layer| door.file(layer).cloned()).collect();
+    let needed = needed(&stage, gate.account()).at(Default::default());
+    if let Some(error) = needed.map_err(|why| placed(&files, why))? {
+        return Err(refused(error.clone()));
+    }
     let made = (|| {
         let texts: Vec<&str> = files.iter().map(|file| &*file.text).collect();
         let scene = Scene::of(&stage, &texts, gate.account())?;
@@ -64,7 +66,7 @@ pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Mode
 
 /// The first that may hold a part of a robot: where bodies or joints are in the prim that brings it in, or it is in a body,
 /// or a joint leads into it, or there are no bodies.
-fn needed(stage: &Stage) -> Option<&UsdError> {
+fn needed<'s>(stage: &'s Stage, account: &Account) -> Result<Option<&'s UsdError>, AccountError> {
     // Of each prim: whether it is in a body, and whether a body or a joint is in it.
     let mut is_inside = vec![false; stage.prims.len()];
     let mut is_around = vec![false; stage.prims.len()];
@@ -81,15 +83,11 @@ fn needed(stage: &Stage) -> Option<&UsdError> {
         if is_body || is_joint(prim) {
             mark(Some(at));
         }
-        let ends = ["physics:body0", "physics:body1"].map(|end| prim.targets(end));
-        for target in ends.into_iter().flatten().filter(|target| stage.find(target).is_none()) {
-            // What is there of the path.
-            let mut path = &**target;
-            while let Some((above, _)) = path.rsplit_once('/') {
-                path = above;
-                if let Some(there) = stage.find(path) {
-                    mark(Some(there));
-                    break;
+        for end in ["physics:body0", "physics:body1"] {
+            for target in prim.targets(end).walk(account)? {
+                // What is there of the path.
+                if stage.find(target, account)?.is_none() {
+                    mark(stage.nearest(target, account)?);
                 }
             }
         }
@@ -97,5 +95,5 @@ fn needed(stage: &Stage) -> Option<&UsdError> {
     let is_needed = |prim: Option<usize>| {
         prim.is_none_or(|prim| !has_bodies || is_inside[prim] || is_around[prim])
     };
-    stage.missing.iter().find(|(prim, _)| is_needed(*prim)).map(|(_, error)| error)
+    Ok(stage.missing.iter().find(|(prim, _)| is_needed(*prim)).map(|(_, error)| error))
 }

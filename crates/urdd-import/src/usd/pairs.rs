@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use urdd_directory::account::{Account, AccountError, Charged};
-use urdd_usd::{Prim, Value};
+use urdd_usd::{Authored, Prim, Value};
 
 use super::frames::Made;
 use super::gprim::Solid;
@@ -29,8 +29,9 @@ pub fn pairs(
         if !of.has("PhysicsFilteredPairsAPI") {
             continue;
         }
-        for target in of.targets("physics:filteredPairs") {
-            let Some(other) = scene.stage.find(target) else { continue };
+        let place = scene.place(prim);
+        for target in of.targets("physics:filteredPairs").walk(account).at(place)? {
+            let Some(other) = scene.stage.find(target, account).at(place)? else { continue };
             let Some((one, two)) = body(prim).zip(body(other)).filter(|(one, two)| one != two)
             else {
                 continue;
@@ -43,11 +44,11 @@ pub fn pairs(
             if known.insert((one.min(two), one.max(two))) {
                 tally.count(features::APART);
                 let pair = Apart { bodies: [one, two], reason: "User" };
-                apart.push(pair, account).at(scene.place(prim))?;
+                apart.push(pair, account).at(place)?;
             }
         }
     }
-    let groups = Groups::of(scene, account, tally).at(Default::default())?;
+    let groups = Groups::of(scene, account, tally)?;
     if !groups.is_empty() {
         for pair in groups.pairs(scene, solids, account, tally).at(Default::default())? {
             if known.insert(pair) {
@@ -85,20 +86,16 @@ pub struct Groups {
 }
 
 impl Groups {
-    pub fn of(
-        scene: &Scene<'_>,
-        account: &Account,
-        tally: &mut Tally,
-    ) -> Result<Self, AccountError> {
+    pub fn of(scene: &Scene<'_>, account: &Account, tally: &mut Tally) -> Fallible<Self> {
         let all: Vec<(usize, &Prim)> = (scene.stage.prims.iter().enumerate())
             .filter(|(_, prim)| &*prim.type_name == "PhysicsCollisionGroup")
             .collect();
-        account.charge(LOOK * all.len() * all.len())?;
         // Groups of one name are one.
         let (mut named, mut index) = (HashMap::new(), HashMap::new());
         let mut count = 0;
-        for (at, prim) in &all {
-            let name = word(prim, "physics:mergeGroup").filter(|name| !name.is_empty());
+        for (at, _) in &all {
+            let name = scene.value(*at, "physics:mergeGroup")?.and_then(Value::text);
+            let name = name.filter(|name| !name.is_empty());
             let new = name.map_or(count, |name| *named.entry(name).or_insert(count));
             count += usize::from(new == count);
             index.insert(*at, new);
@@ -106,9 +103,13 @@ impl Groups {
         let (mut apart, mut listed) = (vec![BTreeSet::new(); count], Vec::new());
         for (at, prim) in &all {
             let own = index[at];
-            let others = prim.targets("physics:filteredGroups").iter();
-            let others: BTreeSet<usize> =
-                others.filter_map(|path| index.get(&scene.stage.find(path)?).copied()).collect();
+            let place = scene.place(*at);
+            account.charge(LOOK * count).at(place)?;
+            let mut others = BTreeSet::new();
+            for path in prim.targets("physics:filteredGroups").walk(account).at(place)? {
+                let other = scene.stage.find(path, account).at(place)?;
+                others.extend(other.and_then(|other| index.get(&other).copied()));
+            }
             let is_inverted = flag(prim, "physics:invertFilteredGroups", false);
             for other in (0..count).filter(|other| others.contains(other) != is_inverted) {
                 apart[own].insert(other);
@@ -117,13 +118,15 @@ impl Groups {
             let is_alone = word(prim, "collection:colliders:expansionRule") == Some("explicitOnly");
             let mut inside = BTreeMap::new();
             for (name, is_in) in [("includes", true), ("excludes", false)] {
-                let paths = prim.targets(&format!("collection:colliders:{name}")).iter();
-                let prims = paths.filter_map(|path| scene.stage.find(path));
-                inside.extend(prims.map(|prim| (prim, (is_in, is_alone && is_in))));
+                let paths = prim.targets(&format!("collection:colliders:{name}"));
+                for path in paths.walk(account).at(place)? {
+                    let prim = scene.stage.find(path, account).at(place)?;
+                    inside.extend(prim.map(|prim| (prim, (is_in, is_alone && is_in))));
+                }
             }
             listed.push((own, inside));
             let expression = prim.value("collection:colliders:membershipExpression");
-            if expression.and_then(Value::text).is_some_and(|text| !text.is_empty()) {
+            if expression.and_then(Authored::word).is_some_and(|text| !text.is_empty()) {
                 tally.unread("expressions that say what is in a collision group");
             }
         }

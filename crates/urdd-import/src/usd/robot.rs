@@ -52,7 +52,7 @@ pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallibl
     let configurations = frames::configurations(scene, &made, account, &mut tally)?;
     let friction = shapes.friction(&made, &mut tally);
     let mut model = Model {
-        name: maker.name(&graph),
+        name: maker.name(&graph)?,
         bodies: made.bodies,
         is_floating: graph.is_floating,
         assets: shapes.into_assets(),
@@ -85,9 +85,12 @@ struct Maker<'a, 's> {
 
 impl Maker<'_, '_> {
     /// The name of the robot: that of the default prim, or of what all its bodies are in.
-    fn name(&self, graph: &Graph) -> String {
-        let default = self.scene.stage.metadata("defaultPrim").and_then(Value::text);
-        let default = default.and_then(|name| self.scene.stage.find(&format!("/{name}")));
+    fn name(&self, graph: &Graph) -> Fallible<String> {
+        let (stage, start) = (self.scene.stage, Place::default());
+        let default = stage.metadata("defaultPrim").map(|name| name.take(self.account));
+        let default = default.transpose().at(start)?.and_then(Value::text);
+        let default = default.map(|name| stage.find(&format!("/{name}"), self.account));
+        let default = default.transpose().at(start)?.flatten();
         let first = graph.branches.iter().find_map(|branch| graph.bodies.get(branch.body));
         let above = first.copied().map(|mut at| {
             while let Some(parent) = self.scene.prim(at).parent {
@@ -95,7 +98,7 @@ impl Maker<'_, '_> {
             }
             at
         });
-        default.or(above).map_or_else(String::new, |at| self.scene.name(at).to_owned())
+        Ok(default.or(above).map_or(Ok(""), |at| self.scene.name(at))?.to_owned())
     }
 
     fn bodies(&mut self, graph: &Graph, tally: &mut Tally) -> Fallible<Made> {
@@ -121,7 +124,7 @@ impl Maker<'_, '_> {
         let scene = self.scene;
         let prim = graph.bodies.get(branch.body);
         let (wanted, place) = match prim {
-            Some(prim) => (scene.name(*prim), scene.place(*prim)),
+            Some(prim) => (scene.name(*prim)?, scene.place(*prim)),
             None => ("world", Default::default()),
         };
         let name = self.names[0].free(wanted).at(place)?;
@@ -155,7 +158,7 @@ impl Maker<'_, '_> {
         }
         for joint in &all {
             let of = scene.place(joint.prim);
-            let name = self.names[1].free(scene.name(joint.prim)).at(of)?;
+            let name = self.names[1].free(scene.name(joint.prim)?).at(of)?;
             if all.len() == 1 && joint.motions.is_empty() {
                 body.fixed_by = Some(name);
                 return Ok(body);
@@ -243,7 +246,7 @@ impl Maker<'_, '_> {
                 }
                 let value = |name: &str, none| number(prim, name).unwrap_or(none);
                 (
-                    self.scene.target(prim, "newton:mimicJoint"),
+                    self.scene.target(joint.prim, "newton:mimicJoint")?,
                     value("newton:mimicCoef0", 0.0),
                     value("newton:mimicCoef1", 1.0),
                 )
@@ -253,7 +256,8 @@ impl Maker<'_, '_> {
                 };
                 let leader = format!("physxMimicJoint:{axis}:referenceJoint");
                 // Own + gearing × other + offset = 0.
-                (self.scene.target(prim, &leader), -value("offset", 0.0), -value("gearing", 1.0))
+                let leader = self.scene.target(joint.prim, &leader)?;
+                (leader, -value("offset", 0.0), -value("gearing", 1.0))
             } else {
                 continue;
             };
@@ -314,19 +318,19 @@ impl Maker<'_, '_> {
             let bodies =
                 joint.ends.map(|end| end.body.and_then(|body| made.index.get(&body).copied()));
             let (Some(kind), [Some(one), Some(other)]) = (kind, bodies) else {
-                let name = self.scene.name(joint.prim);
+                let name = self.scene.name(joint.prim)?;
                 let text = format!("the joint `{name}` is left out: it closes a chain");
                 tally.say(features::OPEN, place, text);
                 continue;
             };
             let ranges = joint.motions.iter().map(|motion| motion.range);
-            say_closed(ranges, (self.scene.name(joint.prim), place), tally);
+            say_closed(ranges, (self.scene.name(joint.prim)?, place), tally);
             let end = |body: usize, which: usize| {
                 let shifted = Translation3::from(-made.shifts[body]) * joint.ends[which].frame;
                 let turned = if axis == Vector3::z() { shifted } else { shifted * from_z(&axis) };
                 End { body, frame: turned }
             };
-            let name = Some(self.scene.name(joint.prim).to_owned());
+            let name = Some(self.scene.name(joint.prim)?.to_owned());
             let closing = Closing { name, kind, ends: [end(one, 0), end(other, 1)], place };
             closings.push(closing, self.account).at(place)?;
         }

@@ -3,8 +3,8 @@
 use nalgebra::{
     Isometry3, Matrix3, Matrix4, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3,
 };
-use urdd_directory::account::Account;
-use urdd_usd::{Prim, Property, Stage, Value};
+use urdd_directory::account::{Account, AccountError};
+use urdd_usd::{Authored, Prim, Property, Stage, Value};
 use urdd_xml::is_character;
 
 use crate::fault::UsdFault;
@@ -14,12 +14,17 @@ use crate::place::{Fallible, Place, Placing, at as refused};
 const METRE: f64 = 0.01;
 /// Bytes of what a prim inherits.
 const PRIM: usize = 300;
+/// Steps of a letter of a name, which is checked, copied and told.
+const NAME: usize = 4;
+/// Steps of a transform of a prim.
+const TRANSFORM: usize = 200;
 /// How a prim names its material: that which is seen, the same for a preview, that of physics.
 pub const BINDINGS: [&str; 3] =
     ["material:binding", "material:binding:preview", "material:binding:physics"];
 
 pub struct Scene<'s> {
     pub stage: &'s Stage,
+    pub account: Account,
     /// Metres and kilograms of a unit.
     pub metre: f64,
     pub kilogram: f64,
@@ -48,13 +53,14 @@ impl<'s> Scene<'s> {
     /// What prims inherit. `texts` are those of the layers.
     pub fn of(stage: &'s Stage, texts: &[&str], account: &Account) -> Fallible<Self> {
         account.charge(PRIM * stage.prims.len()).at(Place::default())?;
-        let number =
-            |name: &str, default| stage.metadata(name).and_then(Value::number).unwrap_or(default);
+        let number = |name: &str, default| {
+            stage.metadata(name).and_then(Authored::number).unwrap_or(default)
+        };
         let (metre, kilogram) = (number("metersPerUnit", METRE), number("kilogramsPerUnit", 1.0));
         if !(metre > 0.0 && metre.is_finite() && kilogram > 0.0 && kilogram.is_finite()) {
             return Err(refused(Place::default(), UsdFault::Units));
         }
-        let up = stage.metadata("upAxis").and_then(Value::text);
+        let up = stage.metadata("upAxis").and_then(Authored::word);
         let has_radians =
             (stage.prims.iter()).any(|prim| word(prim, "mjc:compiler:angle") == Some("radian"));
         let lines = texts.iter().map(|text| {
@@ -63,10 +69,11 @@ impl<'s> Scene<'s> {
         });
         let mut scene = Scene {
             stage,
+            account: account.clone(),
             metre,
             kilogram,
             mujoco_angle: if has_radians { 1.0 } else { 1f64.to_radians() },
-            is_y_up: up.is_none_or(|up| **up == *"Y"),
+            is_y_up: up.is_none_or(|up| up == "Y"),
             world: Vec::new(),
             body: Vec::new(),
             collider: Vec::new(),
@@ -85,7 +92,7 @@ impl<'s> Scene<'s> {
         }
         for (at, prim) in stage.prims.iter().enumerate() {
             let above = prim.parent.map_or(Matrix4::identity(), |parent| scene.world[parent]);
-            scene.world.push(placed(prim, &above));
+            scene.world.push(placed(prim, &above, account).at(scene.place(at))?);
             let is_body =
                 prim.has("PhysicsRigidBodyAPI") && flag(prim, "physics:rigidBodyEnabled", true);
             let inherited = prim.parent.and_then(|parent| scene.body[parent]);
@@ -105,7 +112,7 @@ impl<'s> Scene<'s> {
             scene.adds_mobility.push(flag(prim, "newton:jointsAddMobility", above));
             for (kind, name) in BINDINGS.into_iter().enumerate() {
                 let above = prim.parent.and_then(|parent| scene.material[kind][parent]);
-                let own = scene.target(prim, name).or(above);
+                let own = scene.target(at, name)?.or(above);
                 scene.material[kind].push(own);
             }
         }
@@ -129,23 +136,43 @@ impl<'s> Scene<'s> {
         let matrix = &self.world[at];
         let (rotation, scale) = split(&matrix.fixed_view::<3, 3>(0, 0).into_owned());
         if !scale.iter().all(|part| part.is_finite() && *part != 0.0) {
-            return Err(refused(self.place(at), UsdFault::Scale(self.stage.path(at))));
+            let place = self.place(at);
+            return Err(refused(
+                place,
+                UsdFault::Scale(self.stage.path(at, &self.account).at(place)?),
+            ));
         }
         let place = matrix.fixed_view::<3, 1>(0, 3) * self.metre;
         Ok((Isometry3::from_parts(Translation3::from(place), rotation), scale))
     }
 
     /// A relationship's first target that is there.
-    pub fn target(&self, prim: &Prim, name: &str) -> Option<usize> {
-        prim.targets(name).iter().find_map(|path| self.stage.find(path))
+    pub fn target(&self, prim: usize, name: &str) -> Fallible<Option<usize>> {
+        let place = self.place(prim);
+        for path in self.prim(prim).targets(name).walk(&self.account).at(place)? {
+            if let Some(found) = self.stage.find(path, &self.account).at(place)? {
+                return Ok(Some(found));
+            }
+        }
+        Ok(None)
+    }
+
+    /// A value of a prim, with all that is in it.
+    pub fn value(&self, prim: usize, name: &str) -> Fallible<Option<&'s Value>> {
+        let value = self.prim(prim).value(name).map(|value| value.take(&self.account));
+        value.transpose().at(self.place(prim))
     }
 
     /// The name that a prim shows, or its own, or one for all: the first that XML can hold.
-    pub fn name(&self, at: usize) -> &'s str {
+    pub fn name(&self, at: usize) -> Fallible<&'s str> {
         let prim = self.prim(at);
-        let shown = prim.field("displayName").and_then(Value::text).map(|name| &**name);
+        let shown = prim.field("displayName").map(|name| name.take(&self.account));
+        let shown = shown.transpose().at(self.place(at))?;
+        let shown = shown.and_then(Value::text).map(|name| &**name);
+        let letters = prim.name.len() + shown.map_or(0, str::len);
+        self.account.charge(NAME * letters).at(self.place(at))?;
         let mut names = [shown, Some(&*prim.name)].into_iter().flatten();
-        names.find(|name| is_name(name)).unwrap_or("unnamed")
+        Ok(names.find(|name| is_name(name)).unwrap_or("unnamed"))
     }
 }
 
@@ -204,10 +231,15 @@ pub fn is_square(matrix: &Matrix3<f64>) -> bool {
 }
 
 /// Where a prim is, by the transforms that it lists: the first is the outermost.
-fn placed(prim: &Prim, above: &Matrix4<f64>) -> Matrix4<f64> {
+fn placed(
+    prim: &Prim,
+    above: &Matrix4<f64>,
+    account: &Account,
+) -> Result<Matrix4<f64>, AccountError> {
     let mut matrix = *above;
-    let order = prim.value("xformOpOrder").and_then(Value::texts).unwrap_or_default();
-    for op in order {
+    let Some(order) = prim.value("xformOpOrder") else { return Ok(matrix) };
+    for op in order.take(account)?.texts().unwrap_or_default() {
+        account.charge(TRANSFORM)?;
         if &**op == "!resetXformStack!" {
             matrix = Matrix4::identity();
             continue;
@@ -220,7 +252,7 @@ fn placed(prim: &Prim, above: &Matrix4<f64>) -> Matrix4<f64> {
         let Some(own) = prim.property(name).and_then(|of| transform(kind, of)) else { continue };
         matrix *= if is_inverse { own.try_inverse().unwrap_or(own) } else { own };
     }
-    matrix
+    Ok(matrix)
 }
 
 fn transform(kind: &str, of: &Property) -> Option<Matrix4<f64>> {
@@ -250,7 +282,7 @@ fn transform(kind: &str, of: &Property) -> Option<Matrix4<f64>> {
         // The first axis turns first.
         let angles = vector(of)?;
         let mut matrix = Matrix4::identity();
-        for letter in name.split("").filter(|letter| !letter.is_empty()) {
+        for letter in name.split("").filter(|letter| name.len() == 3 && !letter.is_empty()) {
             let axis = axes(letter)?;
             matrix = Matrix4::from_scaled_axis(axis * axis.dot(&angles).to_radians()) * matrix;
         }
@@ -259,9 +291,8 @@ fn transform(kind: &str, of: &Property) -> Option<Matrix4<f64>> {
     match kind {
         "orient" => Some(rotation(of)?.to_homogeneous()),
         "transform" => {
-            let values = of.value.as_ref()?.numbers()?;
             // Rows of USD, whose points are rows, too.
-            (values.len() == 16).then(|| Matrix4::from_column_slice(values))
+            Some(Matrix4::from_column_slice(&of.value()?.numbers::<16>()?))
         }
         _ => None,
     }
@@ -269,10 +300,7 @@ fn transform(kind: &str, of: &Property) -> Option<Matrix4<f64>> {
 
 /// Numbers of a property. Those of single precision are the shortest decimals that round to them: what was meant.
 fn numbers<const N: usize>(of: &Property) -> Option<[f64; N]> {
-    let values = match of.value.as_ref()? {
-        Value::Number(number) => vec![*number],
-        value => value.numbers()?.to_vec(),
-    };
+    let values = of.value()?.numbers::<N>()?;
     let is_double = of.type_name.starts_with("double")
         || of.type_name.starts_with("matrix")
         || of.type_name.trim_end_matches("[]").ends_with('d');
@@ -280,7 +308,7 @@ fn numbers<const N: usize>(of: &Property) -> Option<[f64; N]> {
         true => value,
         false => format!("{}", value as f32).parse().unwrap_or(value),
     };
-    values.into_iter().map(short).collect::<Vec<_>>().try_into().ok()
+    Some(values.map(short))
 }
 
 fn number_of(of: &Property) -> Option<f64> {
@@ -309,10 +337,11 @@ pub fn turn(prim: &Prim, name: &str) -> Option<UnitQuaternion<f64>> {
     rotation(prim.property(name)?)
 }
 
+/// A word of a schema: see [`Authored::word`].
 pub fn word<'p>(prim: &'p Prim, name: &str) -> Option<&'p str> {
-    prim.value(name).and_then(Value::text).map(|text| &**text)
+    prim.value(name).and_then(Authored::word)
 }
 
 pub fn flag(prim: &Prim, name: &str, default: bool) -> bool {
-    prim.value(name).and_then(Value::bool).unwrap_or(default)
+    prim.value(name).and_then(Authored::bool).unwrap_or(default)
 }

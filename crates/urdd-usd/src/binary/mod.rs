@@ -22,6 +22,8 @@ pub use sections::START;
 /// Bytes of a spec or property, and of a field, in memory.
 const SPEC: usize = 300;
 const FIELD: usize = 64;
+/// The same of a name in an order of children.
+const NAME: usize = 32;
 
 const ATTRIBUTE: i64 = 1;
 const PRIM: i64 = 6;
@@ -67,7 +69,7 @@ pub fn read(bytes: &[u8], door: &mut dyn Door) -> Result<Layer, Wrong> {
             _ => {}
         }
     }
-    specs.sort();
+    specs.sort(&mut file, &cursor)?;
     Ok(specs.layer)
 }
 
@@ -106,11 +108,15 @@ impl Specs {
     }
 
     /// Puts children in the order that their parents say.
-    fn sort(&mut self) {
+    fn sort(&mut self, file: &mut Crate<'_>, cursor: &Cursor<'_>) -> Result<(), Wrong> {
         for at in 0..self.layer.specs.len() {
             let spec = &self.layer.specs[at];
+            if spec.children.len() < 2 {
+                continue;
+            }
             let order = field(&spec.fields, "primChildren");
             let Some(order) = order.and_then(Value::texts) else { continue };
+            file.charge(cursor, NAME * order.len())?;
             let place: HashMap<&Name, usize> =
                 order.iter().enumerate().map(|(at, name)| (name, at)).collect();
             let mut children = spec.children.clone();
@@ -119,6 +125,7 @@ impl Specs {
             });
             self.layer.specs[at].children = children;
         }
+        Ok(())
     }
 }
 

@@ -81,9 +81,9 @@ impl<'b> Crate<'b> {
         Ok(file)
     }
 
-    pub fn charge(&mut self, cursor: &Cursor<'_>, bytes: usize) -> Result<(), Wrong> {
+    pub fn charge(&self, cursor: &Cursor<'_>, bytes: usize) -> Result<(), Wrong> {
         let charged = self.door.charge(bytes);
-        charged.map_err(|why| (Place::Byte(cursor.at as u64), Fault::TooMuch(why)))
+        charged.map_err(|why| (Place::Byte(cursor.at as u64), why.into()))
     }
 
     pub fn section(&self, name: &[u8]) -> Result<Cursor<'b>, Wrong> {
@@ -266,14 +266,16 @@ impl Crate<'_> {
         if let Some(Some(text)) = known {
             return Ok(text.clone());
         }
-        let mut parts = Vec::new();
+        let (mut parts, mut length) = (Vec::new(), PATH);
         let mut next = Some(index);
         while let Some(at) = next {
             // An empty path: a reference to the default prim has one.
             let Some(node) = self.paths.node(at) else { return Ok(Arc::from("")) };
+            length += 1 + node.name.len();
             parts.push(node);
             next = node.parent;
         }
+        self.charge(cursor, length)?;
         let mut text = String::new();
         for node in parts.iter().rev().skip(1) {
             let mark = match node.is_property {
@@ -288,7 +290,6 @@ impl Crate<'_> {
         if text.is_empty() {
             text.push('/');
         }
-        self.charge(cursor, text.len() + 16)?;
         let text: Name = Arc::from(text);
         self.paths.texts[at] = Some(text.clone());
         Ok(text)

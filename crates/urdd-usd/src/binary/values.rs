@@ -220,6 +220,7 @@ impl<'b> Crate<'b> {
                 b't' => {
                     let size = cursor.u32()? as usize;
                     let bytes = size.saturating_mul(scalar.bytes());
+                    self.charge(cursor, bytes)?;
                     let mut table = Cursor::new(cursor.take(bytes)?, 0);
                     let table: Vec<f64> =
                         (0..size).map(|_| scalar.read(&mut table)).collect::<Result<_, _>>()?;

@@ -1,18 +1,24 @@
 //! What the opinions of a prim come to: the variants that are chosen, its type, metadata and properties.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
-use std::sync;
+
+use urdd_directory::account::AccountError;
 
 use super::composed::{Prim, Property};
-use super::sources::{Composer, MAX_SITES, SITE, absolute, shared};
-use super::tree::{Arc, Site, Tree};
-use crate::door::{beside, is_remote};
+use super::sources::{Composer, MAX_SITES, absolute, shared};
+use super::tree::{Arc, SITE, Site, Tree};
+use crate::door::{Door, beside, is_remote};
 use crate::error::{Fault, UsdError};
-use crate::layer::{Item, ListOp, Name, PropertySpec, Value, field};
+use crate::layer::{Item, Name, PropertySpec, Value, field};
 
 /// Bytes of a prim and of a property in memory, about.
 const PRIM: usize = 400;
 const PROPERTY: usize = 250;
+/// The same of an entry of a dictionary that is merged, and of a target.
+const ENTRY: usize = 60;
+const TARGET: usize = 40;
+/// The fields of a prim or property up to which they are searched one by one.
+const FEW: usize = 16;
 
 /// Fields of prims that say how they are composed; they are used up by then.
 const COMPOSITION: &[&str] = &[
@@ -87,11 +93,12 @@ impl Composer<'_> {
         let mut schemas = Vec::new();
         for (_, spec) in specs.iter().rev() {
             if let Some(list) = self.list(*spec, "apiSchemas") {
-                list.apply(&mut schemas);
+                self.edit(&mut schemas, list).map_err(|why| self.too_much(tree, names, why))?;
             }
         }
         let all = specs.iter().map(|(_, spec)| (spec.0, &self.spec(*spec).fields));
         let fields = self.fields(all, COMPOSITION);
+        let fields = fields.map_err(|why| self.too_much(tree, names, why))?;
         let is_instance = first("instanceable").and_then(Value::bool) == Some(true)
             && tree.0.iter().any(|site| site.arc != Arc::Root && site.depth == names.len() as i32);
         let mut opinions: BTreeMap<Name, Vec<Opinion<'_>>> = BTreeMap::new();
@@ -100,16 +107,16 @@ impl Composer<'_> {
                 opinions.entry(property.name.clone()).or_default().push((*at, spec.0, property));
             }
         }
-        let (mut properties, mut sampled, mut cost) = (Vec::new(), 0, PRIM);
+        self.charge(tree, names, PRIM + PROPERTY * opinions.len() + 64 * fields.len())?;
+        let (mut properties, mut sampled) = (Vec::new(), 0);
         for opinions in opinions.values() {
-            let (property, is_sampled) = self.property(opinions, tree, names);
+            let property = self.property(opinions, tree, names);
+            let (property, is_sampled) = property.map_err(|why| self.too_much(tree, names, why))?;
             sampled += usize::from(is_sampled);
-            cost += PROPERTY + property.targets.iter().map(|path| path.len() + 40).sum::<usize>();
             properties.push(property);
         }
         let place = self.place(tree);
         self.sampled += sampled;
-        self.charge(tree, names, cost + 64 * fields.len())?;
         Ok(Some(Prim {
             name: names.last().cloned().unwrap_or_else(|| Name::from("")),
             parent,
@@ -128,30 +135,52 @@ impl Composer<'_> {
         &self,
         all: impl Iterator<Item = (u32, &'l Vec<(Name, Value)>)>,
         without: &[&str],
-    ) -> Vec<(Name, Value)> {
-        let mut fields: Vec<(Name, Value)> = Vec::new();
+    ) -> Result<Vec<(Name, Value)>, AccountError> {
+        let mut fields: Vec<(&Name, u32, Merged<'_>)> = Vec::new();
+        let mut places: HashMap<&Name, usize> = HashMap::new();
         for (layer, own) in all {
             for (name, value) in own.iter().filter(|(name, _)| !without.contains(&&**name)) {
-                match fields.iter_mut().find(|(known, _)| known == name) {
-                    Some((_, stronger)) => merge(stronger, value),
-                    None => fields.push((name.clone(), self.anchored(layer, value))),
+                let known = match fields.len() {
+                    ..FEW => fields.iter().position(|(known, ..)| *known == name),
+                    _ => places.get(name).copied(),
+                };
+                if let Some(known) = known {
+                    fields[known].2.add(value, self.layers.door)?;
+                    continue;
+                }
+                fields.push((name, layer, Merged::One(value)));
+                let new = if fields.len() == FEW { 0 } else { fields.len() - 1 };
+                if fields.len() >= FEW {
+                    let each = fields.iter().enumerate().skip(new);
+                    places.extend(each.map(|(at, (name, ..))| (*name, at)));
                 }
             }
         }
-        fields
+        let made = fields.into_iter().map(|(name, layer, value)| match value {
+            Merged::One(value) => Ok((name.clone(), self.anchored(layer, value)?)),
+            merged => Ok((name.clone(), merged.into_value())),
+        });
+        made.collect()
     }
 
     /// A value whose path of a file is relative to the root layer.
-    fn anchored(&self, layer: u32, value: &Value) -> Value {
-        match value {
+    fn anchored(&self, layer: u32, value: &Value) -> Result<Value, AccountError> {
+        Ok(match value {
             Value::Asset(asset) if !asset.is_empty() && !is_remote(asset) => {
-                Value::Asset(shared(beside(&self.layers.all[layer as usize].path, asset)))
+                let layer = &self.layers.all[layer as usize].path;
+                self.layers.door.charge(ENTRY + layer.len() + asset.len())?;
+                Value::Asset(shared(beside(layer, asset)))
             }
             other => other.clone(),
-        }
+        })
     }
 
-    fn property(&self, opinions: &[Opinion<'_>], tree: &Tree, names: &[Name]) -> (Property, bool) {
+    fn property(
+        &self,
+        opinions: &[Opinion<'_>],
+        tree: &Tree,
+        names: &[Name],
+    ) -> Result<(Property, bool), AccountError> {
         let (_, _, strongest) = opinions[0];
         let find = |name: &str| {
             opinions.iter().find_map(|(_, layer, of)| Some((*layer, field(&of.fields, name)?)))
@@ -159,9 +188,9 @@ impl Composer<'_> {
         let default = find("default");
         let samples = find("timeSamples").filter(|_| default.is_none());
         let (value, is_sampled) = match (default, samples) {
-            (Some((layer, value)), _) => (Some(self.anchored(layer, value)), false),
+            (Some((layer, value)), _) => (Some(self.anchored(layer, value)?), false),
             (None, Some((layer, Value::Samples(sample)))) => {
-                (Some(self.anchored(layer, &sample.1)), true)
+                (Some(self.anchored(layer, &sample.1)?), true)
             }
             _ => (None, false),
         };
@@ -169,12 +198,8 @@ impl Composer<'_> {
         let mut targets = Vec::new();
         for (at, _, of) in opinions.iter().rev() {
             let Some(list) = field(&of.fields, kind).and_then(Value::list) else { continue };
-            let own = tree.0[*at].path(names);
-            let mapped: ListOp = list.map(|item| {
-                let path = absolute(&own, item.text());
-                Some(Item::Path(shared(tree.mapped(*at, &path)?)))
-            });
-            mapped.apply(&mut targets);
+            let mapped = list.map(|item| self.target(item, tree, *at, names))?;
+            self.edit(&mut targets, &mapped)?;
         }
         let type_name = find("typeName").and_then(|(_, value)| value.text().cloned());
         let fields = opinions.iter().map(|(_, layer, of)| (*layer, &of.fields));
@@ -183,25 +208,76 @@ impl Composer<'_> {
             type_name: type_name.unwrap_or_else(|| Name::from("")),
             value: value.filter(|value| *value != Value::Blocked),
             targets: targets.iter().map(|item| item.text().clone()).collect(),
-            fields: self.fields(fields, OF_PROPERTY),
+            fields: self.fields(fields, OF_PROPERTY)?,
         };
-        (property, is_sampled)
+        Ok((property, is_sampled))
+    }
+
+    /// A target that a site says, as it is in the stage.
+    fn target(
+        &self,
+        item: &Item,
+        tree: &Tree,
+        at: usize,
+        names: &[Name],
+    ) -> Result<Option<Item>, AccountError> {
+        let (door, path) = (&*self.layers.door, item.text());
+        door.charge(TARGET + path.len())?;
+        if at == 0 && path.starts_with('/') {
+            return Ok(Some(Item::Path(path.clone())));
+        }
+        let path = match path.starts_with('/') {
+            true => path.to_string(),
+            false => absolute(&tree.0[at].path(names, door)?, path),
+        };
+        Ok(tree.mapped(at, &path, door)?.map(|path| Item::Path(shared(path))))
     }
 }
 
-/// Adds what a weaker dictionary says.
-fn merge(stronger: &mut Value, weaker: &Value) {
-    let (Value::Dictionary(own), Value::Dictionary(more)) = (&*stronger, weaker) else { return };
-    let mut all: Vec<(Name, Value)> = own.to_vec();
-    let known: HashMap<Name, usize> =
-        own.iter().enumerate().map(|(at, (name, _))| (name.clone(), at)).collect();
-    for (name, value) in more.iter() {
-        match known.get(name) {
-            Some(at) => merge(&mut all[*at].1, value),
-            None => all.push((name.clone(), value.clone())),
+/// What the opinions of a field come to: the strongest; of dictionaries, what all say.
+enum Merged<'l> {
+    One(&'l Value),
+    /// The entries, and where each is.
+    Entries(Vec<(&'l Name, Merged<'l>)>, HashMap<&'l Name, usize>),
+}
+
+impl<'l> Merged<'l> {
+    /// Adds what a weaker dictionary says.
+    fn add(&mut self, weaker: &'l Value, door: &dyn Door) -> Result<(), AccountError> {
+        let Value::Dictionary(more) = weaker else { return Ok(()) };
+        let cost = |entries: &[(Name, Value)]| {
+            entries.iter().map(|(name, _)| ENTRY + name.len()).sum::<usize>()
+        };
+        if let Merged::One(own) = self {
+            let Value::Dictionary(own) = own else { return Ok(()) };
+            door.charge(cost(own))?;
+            let places = own.iter().enumerate().map(|(at, (name, _))| (name, at)).collect();
+            let each = own.iter().map(|(name, value)| (name, Merged::One(value)));
+            *self = Merged::Entries(each.collect(), places);
+        }
+        let Merged::Entries(all, places) = self else { return Ok(()) };
+        door.charge(cost(more))?;
+        for (name, value) in more.iter() {
+            match places.get(name) {
+                Some(at) => all[*at].1.add(value, door)?,
+                None => {
+                    places.insert(name, all.len());
+                    all.push((name, Merged::One(value)));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn into_value(self) -> Value {
+        match self {
+            Merged::One(value) => value.clone(),
+            Merged::Entries(all, _) => {
+                let each = all.into_iter().map(|(name, of)| (name.clone(), of.into_value()));
+                Value::Dictionary(each.collect())
+            }
         }
     }
-    *stronger = Value::Dictionary(sync::Arc::from(all));
 }
 
 impl Composer<'_> {
@@ -217,12 +293,15 @@ impl Composer<'_> {
         if !tree.0.iter().any(|site| site.specs.iter().any(has_sets)) {
             return Ok(false);
         }
+        // All is looked at again for each set.
+        self.charge(tree, names, tree.steps())?;
         let order = tree.ordered();
         for at in &order {
             let mut sets = Vec::new();
             for spec in tree.0[*at].specs.iter().rev() {
                 if let Some(list) = self.list(*spec, "variantSetNames") {
-                    list.apply(&mut sets);
+                    let edited = self.edit(&mut sets, list);
+                    edited.map_err(|why| self.too_much(tree, names, why))?;
                 }
             }
             for set in sets {
@@ -230,20 +309,20 @@ impl Composer<'_> {
                 if !chosen.insert((*at, set.clone())) {
                     continue;
                 }
-                let Some(name) = self.selection(tree, &order, &set) else { continue };
-                let name: Name = format!("{{{set}={name}}}").into();
-                let specs = tree.0[*at].specs.iter().filter_map(|(layer, spec)| {
-                    Some((*layer, self.layers.all[*layer as usize].layer.child(*spec, &name)?))
+                let specs = self.selection(tree, &order, &set).and_then(|name| {
+                    let name: Option<Name> = name.map(|name| format!("{{{set}={name}}}").into());
+                    name.map(|name| self.layers.inside(&tree.0[*at].specs, &name)).transpose()
                 });
-                let specs: Vec<_> = specs.collect();
+                let specs = specs.map_err(|why| self.too_much(tree, names, why))?;
+                let Some(specs) = specs else { continue };
                 if specs.is_empty() {
                     continue;
                 }
                 if tree.0.len() >= MAX_SITES {
                     return Err(self.wrong(tree, names, Fault::Sources(MAX_SITES)));
                 }
-                let own = tree.0[*at].path(names);
-                self.charge(tree, names, SITE + own.len())?;
+                let own = self.path(tree, *at, names)?;
+                self.charge(tree, names, SITE)?;
                 let (stack, level) = (tree.0[*at].stack, names.len());
                 let mut site = Site::new(*at, Arc::Variant, level as i32, stack, own.into(), level);
                 site.specs = specs;
@@ -255,12 +334,23 @@ impl Composer<'_> {
     }
 
     /// The strongest choice of a variant.
-    fn selection(&self, tree: &Tree, order: &[usize], set: &str) -> Option<Name> {
-        let specs = order.iter().flat_map(|at| &tree.0[*at].specs);
-        let mut all = specs.filter_map(|spec| {
-            let selection = field(&self.spec(*spec).fields, "variantSelection")?;
-            selection.get(set)?.text().cloned()
-        });
-        all.find(|name| !name.is_empty())
+    fn selection(
+        &self,
+        tree: &Tree,
+        order: &[usize],
+        set: &str,
+    ) -> Result<Option<Name>, AccountError> {
+        self.layers.door.charge(tree.steps())?;
+        for spec in order.iter().flat_map(|at| tree.0[*at].specs.iter()) {
+            let selection = field(&self.spec(*spec).fields, "variantSelection");
+            let Some(Value::Dictionary(entries)) = selection else { continue };
+            self.layers.door.charge(entries.len())?;
+            let name = selection.and_then(|all| all.get(set)?.text());
+            if let Some(name) = name.filter(|name| !name.is_empty()) {
+                self.layers.door.charge(set.len() + name.len())?;
+                return Ok(Some(name.clone()));
+            }
+        }
+        Ok(None)
     }
 }

@@ -1,7 +1,9 @@
 //! The layers of a stage, each read once, and what their sublayers add to them.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
+
+use urdd_directory::account::AccountError;
 
 use crate::door::{Door, PACKAGE_START, Package, beside, is_remote};
 use crate::error::{Fault, Place, UsdError};
@@ -14,12 +16,30 @@ const OF_TEXT: usize = 60;
 const MAX_PACKAGES: usize = 8;
 /// The most layers of a stack.
 const MAX_LAYERS: usize = 1000;
+/// Steps of a look at a layer of a stack, at a spec for one inside of it, and at a path.
+const LOOK: usize = 20;
 
 /// A layer, and where it is from.
 #[derive(Debug)]
 pub struct Loaded {
     pub path: Name,
     pub layer: Layer,
+}
+
+/// Layers with their specs of a prim, strongest first. That these are composed once was charged: none are had otherwise than
+/// from [`Layers::roots`] and [`Layers::inside`].
+#[derive(Debug, Default)]
+pub struct Specs {
+    all: Vec<(u32, u32)>,
+    /// The steps of their composition.
+    pub steps: usize,
+}
+
+impl std::ops::Deref for Specs {
+    type Target = [(u32, u32)];
+    fn deref(&self) -> &[(u32, u32)] {
+        &self.all
+    }
 }
 
 pub struct Layers<'d> {
@@ -48,8 +68,33 @@ impl<'d> Layers<'d> {
         }
     }
 
+    pub fn spec(&self, (layer, spec): (u32, u32)) -> &Spec {
+        &self.all[layer as usize].layer.specs[spec as usize]
+    }
+
+    fn specs(&self, all: Vec<(u32, u32)>) -> Result<Specs, AccountError> {
+        let steps = all.iter().map(|spec| self.spec(*spec).steps).sum();
+        self.door.charge(steps)?;
+        Ok(Specs { all, steps })
+    }
+
+    /// The layers of a stack, as specs.
+    pub fn roots(&self, stack: usize) -> Result<Specs, AccountError> {
+        self.specs(self.stacks[stack].iter().map(|layer| (*layer, 0)).collect())
+    }
+
+    /// What layers say of a child or a variant.
+    pub fn inside(&self, specs: &Specs, name: &Name) -> Result<Specs, AccountError> {
+        self.door.charge((LOOK + name.len()) * specs.len())?;
+        let inside = specs.iter().filter_map(|(layer, spec)| {
+            Some((*layer, self.all[*layer as usize].layer.child(*spec, name)?))
+        });
+        self.specs(inside.collect())
+    }
+
     /// The path of a file that a layer names, if such a file can be read.
     pub fn named(&self, layer: u32, asset: &str) -> Result<String, Fault> {
+        self.door.charge(LOOK + self.all[layer as usize].path.len() + asset.len())?;
         if is_remote(asset) {
             return Err(Fault::Network(asset.to_owned()));
         }
@@ -59,7 +104,8 @@ impl<'d> Layers<'d> {
         Ok(beside(&self.all[layer as usize].path, asset))
     }
 
-    /// The stack of a layer: itself and its sublayers.
+    /// The stack of a layer: itself and its sublayers. Of a layer that is there several times, the first and the last count:
+    /// the strongest of its opinions, and the weakest place in lists and orders. Those between say nothing new.
     pub fn stack(&mut self, path: &str) -> Result<usize, UsdError> {
         let root = self.load(path)?;
         if let Some(known) = self.stack_of.get(&root) {
@@ -79,6 +125,8 @@ impl<'d> Layers<'d> {
                 if stack.len() >= MAX_LAYERS {
                     return Err(error(&path, Place::Layer, Fault::Sources(MAX_LAYERS)));
                 }
+                let charged = self.door.charge(LOOK + LOOK * open.len());
+                charged.map_err(|why| error(&path, Place::Layer, why.into()))?;
                 stack.push(layer);
                 let mut below = self.sublayers(layer)?;
                 below.reverse();
@@ -90,6 +138,12 @@ impl<'d> Layers<'d> {
                 open.pop();
             }
         }
+        let each = stack.iter().enumerate();
+        let last: HashMap<u32, usize> = each.map(|(at, layer)| (*layer, at)).collect();
+        let mut known = HashSet::new();
+        let each = stack.into_iter().enumerate();
+        let counts = each.filter(|(at, layer)| known.insert(*layer) || last[layer] == *at);
+        let stack = counts.map(|(_, layer)| layer).collect();
         self.stacks.push(stack);
         self.stack_of.insert(root, self.stacks.len() - 1);
         Ok(self.stacks.len() - 1)
@@ -124,17 +178,17 @@ impl<'d> Layers<'d> {
         let layer = |fault| error(path, Place::Layer, fault);
         let bytes = self.bytes(path).map_err(layer)?;
         let at = if bytes.starts_with(PACKAGE_START) {
-            let mut package = Package::open(bytes).map_err(layer)?;
+            let mut package = Package::open(bytes, self.door).map_err(layer)?;
             let root = package.root().map_err(layer)?;
             self.packages.insert(path.to_owned(), package);
             let (outer, ends) = path.split_at(path.trim_end_matches(']').len());
             self.load(&format!("{outer}[{root}]{ends}"))?
         } else {
-            let read = if bytes.starts_with(binary::START) {
+            let mut read = if bytes.starts_with(binary::START) {
                 binary::read(&bytes, self.door).map_err(wrong)?
             } else {
                 let charged = self.door.charge(bytes.len().saturating_mul(OF_TEXT));
-                charged.map_err(|why| layer(Fault::TooMuch(why)))?;
+                charged.map_err(|why| layer(why.into()))?;
                 text::read(&bytes).map_err(wrong)?
             };
             let says = |spec: &Spec, name| field(&spec.fields, name).is_some_and(is_said);
@@ -143,6 +197,7 @@ impl<'d> Layers<'d> {
             {
                 return Err(layer(Fault::Relocates));
             }
+            read.weigh();
             self.all.push(Loaded { path: Arc::from(path), layer: read });
             self.all.len() as u32 - 1
         };
@@ -164,7 +219,7 @@ impl<'d> Layers<'d> {
         let package = format!("{package}{}", &ends[1..]);
         if !self.packages.contains_key(&package) {
             let bytes = self.bytes(&package)?;
-            self.packages.insert(package.clone(), Package::open(bytes)?);
+            self.packages.insert(package.clone(), Package::open(bytes, self.door)?);
         }
         match self.packages.get_mut(&package) {
             Some(package) => package.read(inside, self.door).map_err(|fault| match fault {

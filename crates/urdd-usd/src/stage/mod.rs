@@ -10,12 +10,12 @@ mod tree;
 use std::sync::Arc;
 
 use crate::door::Door;
-use crate::error::{Fault, UsdError};
+use crate::error::{Fault, Place, UsdError};
 use crate::layer::{Item, Name, Spec, Value, field};
-use layers::Layers;
+use layers::{Layers, error};
 use sources::Composer;
 
-pub use composed::{Prim, Property, Stage};
+pub use composed::{Authored, Prim, Property, Stage, Targets};
 
 /// Reads a layer and all that it is composed of.
 ///
@@ -66,6 +66,7 @@ pub fn outline(path: &str, door: &mut dyn Door) -> Result<Outline, UsdError> {
                 // Of another one, or not there: whoever composes the stage says so.
                 Ok(name) if name.ends_with(']') => drop(layers.load(&name)),
                 Ok(name) => outline.names.push(name),
+                Err(fault @ Fault::TooMuch(_)) => return Err(error(path, Place::Layer, fault)),
                 Err(_) => {}
             }
         }

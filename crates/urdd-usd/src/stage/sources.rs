@@ -4,9 +4,11 @@ use std::collections::HashSet;
 use std::rc::Rc;
 use std::sync;
 
+use urdd_directory::account::AccountError;
+
 use super::composed::Stage;
 use super::layers::{Layers, error};
-use super::tree::{Arc, Site, Tree};
+use super::tree::{Arc, LOOK, SITE, Site, Tree};
 use crate::error::{Fault, Place, UsdError};
 use crate::layer::{Item, ListOp, Name, Spec, Value, field};
 
@@ -14,10 +16,11 @@ use crate::layer::{Item, ListOp, Name, Spec, Value, field};
 pub const MAX_SITES: usize = 1000;
 /// The deepest chain of references to prims inside of what is referenced itself.
 const MAX_CHAIN: usize = 64;
-/// Bytes of a site in memory, about.
-pub const SITE: usize = 120;
-/// The same of an error.
+/// Bytes of an error in memory, about.
 const MISSING: usize = 200;
+/// Steps of a child in the list of those that wait, and of an entry of a list that is edited.
+const CHILD: usize = 20;
+const ITEM: usize = 40;
 
 /// Fields that bring in other sites.
 const ARCS: [(&str, Arc); 4] = [
@@ -45,16 +48,18 @@ impl<'d> Composer<'d> {
         let mut stage = Stage::default();
         let root = self.layers.stacks[stack][0];
         stage.metadata = self.layers.all[root as usize].layer.specs[0].fields.clone();
-        let tree = Rc::new(Tree::root(stack, &self.layers));
+        let tree = Tree::root(stack, &self.layers);
+        let root = &self.layers.all[root as usize].path;
+        let tree = Rc::new(tree.map_err(|why| error(root, Place::Layer, why.into()))?);
         let mut waiting = Vec::new();
-        self.wait(&mut waiting, None, &tree, 0)?;
+        self.wait(&mut waiting, None, &tree, &[])?;
         let mut names: Vec<Name> = Vec::new();
         while let Some((parent, above, name, level)) = waiting.pop() {
             names.truncate(level);
             names.push(name.clone());
-            let mut tree = above.child(&name, &self.layers);
+            let tree = above.child(&name, &self.layers);
+            let mut tree = tree.map_err(|why| self.too_much(&above, &names, why))?;
             drop(above);
-            self.charge(&tree, &names, SITE * tree.0.len())?;
             self.expand(&mut tree, &names, true)?;
             let prim = self.prim(&tree, &names, parent)?;
             let next = stage.prims.len();
@@ -66,7 +71,7 @@ impl<'d> Composer<'d> {
             if is_instance {
                 tree.close(level + 1);
             }
-            self.wait(&mut waiting, Some(at), &Rc::new(tree), level + 1)?;
+            self.wait(&mut waiting, Some(at), &Rc::new(tree), &names)?;
         }
         stage.layers = self.layers.all.iter().map(|layer| layer.path.clone()).collect();
         stage.sampled = self.sampled;
@@ -79,28 +84,39 @@ impl<'d> Composer<'d> {
         waiting: &mut Vec<(Option<usize>, Rc<Tree>, Name, usize)>,
         parent: Option<usize>,
         tree: &Rc<Tree>,
-        level: usize,
+        names: &[Name],
     ) -> Result<(), UsdError> {
         let (mut known, mut children) = (HashSet::new(), Vec::new());
         for at in tree.ordered().into_iter().rev() {
             for (layer, spec) in tree.0[at].specs.iter().rev() {
                 let specs = &self.layers.all[*layer as usize].layer.specs;
+                self.charge(tree, names, CHILD * specs[*spec as usize].children.len())?;
                 for child in &specs[*spec as usize].children {
                     let name = &specs[*child as usize].name;
                     if known.insert(name.clone()) {
+                        self.charge(tree, names, SITE + name.len())?;
                         children.push(name.clone());
                     }
                 }
             }
         }
-        self.charge(tree, &[], SITE * children.len())?;
-        let each = children.into_iter().rev().map(|name| (parent, Rc::clone(tree), name, level));
+        let (each, level) = (children.into_iter().rev(), names.len());
+        let each = each.map(|name| (parent, Rc::clone(tree), name, level));
         waiting.extend(each);
         Ok(())
     }
 
-    pub fn spec(&self, (layer, spec): (u32, u32)) -> &Spec {
-        &self.layers.all[layer as usize].layer.specs[spec as usize]
+    pub fn spec(&self, spec: (u32, u32)) -> &Spec {
+        self.layers.spec(spec)
+    }
+
+    /// Edits a list. All edits of lists are made here.
+    pub fn edit(&self, list: &mut Vec<Item>, edit: &ListOp) -> Result<(), AccountError> {
+        let cost = |item: &Item| ITEM + item.len();
+        let known: usize = list.iter().map(cost).sum();
+        self.layers.door.charge(known + edit.all().map(cost).sum::<usize>())?;
+        edit.apply(list);
+        Ok(())
     }
 
     /// How a layer edits a list.
@@ -118,15 +134,24 @@ impl<'d> Composer<'d> {
     pub fn wrong(&self, tree: &Tree, names: &[Name], fault: Fault) -> UsdError {
         let (layer, line) = self.place(tree);
         let place = match line {
-            0 => Place::Path(tree.0[0].path(names)),
+            0 => Place::Path(tree.0[0].shown(names)),
             line => Place::Text(line, 1),
         };
         error(&self.layers.all[layer].path, place, fault)
     }
 
-    pub fn charge(&mut self, tree: &Tree, names: &[Name], bytes: usize) -> Result<(), UsdError> {
-        let charged = self.layers.door.charge(bytes);
-        charged.map_err(|why| self.wrong(tree, names, Fault::TooMuch(why)))
+    pub fn charge(&self, tree: &Tree, names: &[Name], cost: usize) -> Result<(), UsdError> {
+        self.layers.door.charge(cost).map_err(|why| self.too_much(tree, names, why))
+    }
+
+    pub fn too_much(&self, tree: &Tree, names: &[Name], why: AccountError) -> UsdError {
+        self.wrong(tree, names, why.into())
+    }
+
+    /// The path of a site of a prim.
+    pub fn path(&self, tree: &Tree, at: usize, names: &[Name]) -> Result<String, UsdError> {
+        let path = tree.0[at].path(names, self.layers.door);
+        path.map_err(|why| self.too_much(tree, names, why))
     }
 
     /// Adds all sites that those of a prim bring in; variants only if they are wanted.
@@ -164,17 +189,20 @@ impl<'d> Composer<'d> {
                     Item::Reference { asset, path } if !asset.is_empty() => {
                         match self.layers.named(*layer, asset) {
                             Ok(asset) => {
-                                Some(Item::Reference { asset: asset.into(), path: path.clone() })
+                                let (asset, path) = (asset.into(), path.clone());
+                                Ok(Some(Item::Reference { asset, path }))
                             }
+                            Err(Fault::TooMuch(why)) => Err(why),
                             Err(why) => {
                                 faults.push(why);
-                                None
+                                Ok(None)
                             }
                         }
                     }
-                    other => Some(other.clone()),
+                    other => Ok(Some(other.clone())),
                 });
-                anchored.apply(&mut items);
+                let edited = anchored.and_then(|edit| self.edit(&mut items, &edit));
+                edited.map_err(|why| self.too_much(tree, names, why))?;
             }
             for fault in faults {
                 self.miss(tree, names, fault)?;
@@ -209,9 +237,12 @@ impl<'d> Composer<'d> {
         arc: Arc,
         item: &Item,
     ) -> Result<(), UsdError> {
-        let mut path = absolute(&tree.0[at].path(names), item.text());
+        let mut path = absolute(&self.path(tree, at, names)?, item.text());
         let mut site = at;
         while site != 0 {
+            // All sites are compared.
+            let each = LOOK + path.len() / 16;
+            self.charge(tree, names, path.len() + each * tree.0.len())?;
             let (above, stack) = (tree.0[site].above, tree.0[site].stack);
             let mapped = tree.above(site, &path);
             let is_same = mapped == path && tree.0[above].stack == stack;
@@ -220,7 +251,7 @@ impl<'d> Composer<'d> {
                 let target = one.map.as_ref().map(|(target, _)| &**target);
                 one.above == above && one.arc == arc && target == Some(path.as_str())
             };
-            let own = tree.0[site].path(names);
+            let own = self.path(tree, site, names)?;
             if is_same || is_inside(&own, &path) || tree.0.iter().any(is_known) {
                 continue;
             }
@@ -238,7 +269,7 @@ impl<'d> Composer<'d> {
         arc: Arc,
         item: &Item,
     ) -> Result<(), UsdError> {
-        let own = tree.0[at].path(names);
+        let own = self.path(tree, at, names)?;
         let (asset, path) = match item {
             Item::Reference { asset, path } => (&**asset, &**path),
             Item::Text(path) | Item::Path(path) => ("", &**path),
@@ -271,7 +302,7 @@ impl<'d> Composer<'d> {
         let mut above = at;
         loop {
             let site = &tree.0[above];
-            let one = site.path(names);
+            let one = self.path(tree, above, names)?;
             let is_circle = site.stack == stack
                 && (is_inside(&one, &path) || !is_class && is_inside(&path, &one));
             if is_circle {
@@ -297,8 +328,8 @@ impl<'d> Composer<'d> {
         let depth = names.len() as i32;
         let mut site = Site::new(at, arc, depth, stack, target.clone(), names.len());
         site.map = Some((target, own.into()));
-        tree.graft(site, inside, &own_names, depth);
-        Ok(())
+        let grafted = tree.graft(site, inside, &own_names, self.layers.door);
+        grafted.map_err(|why| self.too_much(tree, names, why))
     }
 
     /// The sites of a path in a stack, with what is brought in by the prims that it is inside of.
@@ -315,10 +346,13 @@ impl<'d> Composer<'d> {
         }
         self.chain.push(key);
         let path = path.trim_matches('/');
+        self.charge(of, of_names, LOOK * path.len())?;
         let names: Vec<Name> = path.split('/').map(Name::from).collect();
-        let mut tree = Tree::root(stack, &self.layers);
+        let too_much = |this: &Self, why| this.too_much(of, of_names, why);
+        let mut tree = Tree::root(stack, &self.layers).map_err(|why| too_much(self, why))?;
         for level in 1..=names.len() {
-            tree = tree.child(&names[level - 1], &self.layers);
+            let child = tree.child(&names[level - 1], &self.layers);
+            tree = child.map_err(|why| too_much(self, why))?;
             if level < names.len() {
                 self.expand(&mut tree, &names[..level], true)?;
             }

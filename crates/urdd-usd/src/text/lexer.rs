@@ -42,6 +42,8 @@ pub struct Lexer<'t> {
     at: usize,
     line: u32,
     line_start: usize,
+    /// The line on which the word before the one ahead ends.
+    last_line: u32,
     /// The word ahead, and where it begins.
     ahead: Option<Token<'t>>,
     start: usize,
@@ -56,6 +58,7 @@ impl<'t> Lexer<'t> {
             at: 0,
             line: 1,
             line_start: 0,
+            last_line: 1,
             ahead: None,
             start: 0,
             start_line: 1,
@@ -66,6 +69,17 @@ impl<'t> Lexer<'t> {
     /// The line of the word ahead, or of the last one.
     pub fn word_line(&self) -> u32 {
         self.start_line
+    }
+
+    /// That a statement ends: by `;`, a line break or the bracket around it, as usd-core has it. The latter alone ends the last
+    /// one, too.
+    pub fn ends(&mut self) -> Result<(), Wrong> {
+        let next = self.peek()?.clone();
+        let is_end = matches!(next, Token::Mark(';' | ',' | '}' | ')') | Token::End);
+        match is_end || self.start_line > self.last_line {
+            true => Ok(()),
+            false => Err(self.expected("`;` or a line break after a statement", &next)),
+        }
     }
 
     /// A fault at the word ahead, or at the last one.
@@ -155,6 +169,7 @@ impl<'t> Lexer<'t> {
     }
 
     fn read(&mut self) -> Result<Token<'t>, Wrong> {
+        self.last_line = self.line;
         self.blanks()?;
         (self.start, self.start_line, self.start_of_line) = (self.at, self.line, self.line_start);
         let rest = self.rest();

@@ -80,7 +80,7 @@ impl Reader<'_> {
             Token::Mark(';') => return Ok(()),
             Token::Mark('}') if open.len() > 1 => {
                 open.pop();
-                return Ok(());
+                return self.lexer.ends();
             }
             Token::End if open.len() == 1 => {
                 open.pop();
@@ -104,7 +104,10 @@ impl Reader<'_> {
                 self.lexer.take('{', "`{`")?;
                 open.push(Open::Set(spec, set));
             }
-            _ => self.property(spec, word)?,
+            _ => {
+                self.property(spec, word)?;
+                self.lexer.ends()?;
+            }
         }
         Ok(())
     }
@@ -143,7 +146,7 @@ impl Reader<'_> {
         let name = match self.lexer.next()? {
             Token::Mark('}') => {
                 open.pop();
-                return Ok(());
+                return self.lexer.ends();
             }
             Token::Mark(';') => return Ok(()),
             Token::Text(name) => name,

@@ -128,6 +128,7 @@ impl Reader<'_> {
             self.lexer.take('=', "`=`")?;
             let value = self.value(level + 1)?;
             entries.push((key, typed(kind, is_array, value)));
+            self.lexer.ends()?;
         }
     }
 
@@ -291,6 +292,7 @@ impl Reader<'_> {
                 Token::Mark(';' | ',') => continue,
                 Token::Text(text) => {
                     fields.push((self.name("comment"), Value::Text(self.name(&text))));
+                    self.lexer.ends()?;
                     continue;
                 }
                 Token::Name(word) => word,
@@ -313,6 +315,7 @@ impl Reader<'_> {
             }
             let (field, value) = self.field(word, edit)?;
             put(&mut fields, self.name(field), value);
+            self.lexer.ends()?;
         }
     }
 

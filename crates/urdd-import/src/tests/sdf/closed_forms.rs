@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::{body, fixture, given, inside, joint};
 use crate::model::{Geometry, Inertial, JointKind, Mimic};
+use crate::tests::Entries as _;
 
 #[test]
 fn a_screw_is_a_hinge_and_a_slide_that_follows() {
@@ -218,7 +219,7 @@ fn a_gearbox_is_an_equation_of_what_turns_its_links() {
         inside("1.9", &text).expect("a model")
     };
     let terms = |model: &crate::model::Model| {
-        let coupled = model.couplings.first().expect("a coupling");
+        let coupled = model.couplings.all().first().expect("a coupling");
         assert_eq!((coupled.name.as_deref(), coupled.constant), (Some("gears"), 0.0));
         let terms = coupled.terms.iter().map(|(name, of)| (name.clone(), of.clone()));
         terms.collect::<Vec<_>>()

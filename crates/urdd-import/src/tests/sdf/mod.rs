@@ -22,6 +22,7 @@ use urdd_source::{Files, ImportOptions, Settings};
 use crate::model::{Body, Joint, Model};
 use crate::place::{Placed, TextFile};
 use crate::sdf;
+use crate::tests::Entries as _;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src/tests/sdf/fixtures")

@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use super::{body, fixture, joint, pose};
 use crate::model::Model;
+use crate::tests::Entries as _;
 
 const TRUTH: &str = include_str!("truth.jsonl");
 const NEAR: f64 = 1e-12;

@@ -3,6 +3,7 @@
 use super::{fixture, given, inside};
 use crate::features::{self, Feature};
 use crate::model::Model;
+use crate::tests::Entries as _;
 
 fn counts(model: &Model, wanted: &[(Feature, usize)]) {
     for (feature, count) in wanted {

@@ -6,6 +6,7 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use super::{body, inside, joint, pose};
 use crate::model::Model;
+use crate::tests::Entries as _;
 
 const OLD: [&str; 5] = ["1.2", "1.3", "1.4", "1.5", "1.6"];
 

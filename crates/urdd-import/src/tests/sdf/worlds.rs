@@ -1,6 +1,7 @@
 //! Worlds, and what they include.
 
 use super::{body, given, inside, pose};
+use crate::tests::Entries as _;
 use urdd_source::ImportOptions;
 
 const PART: &str = "<sdf version='1.9'><model name='part'><link name='p'/></model></sdf>";
