@@ -32,7 +32,8 @@ pub struct LimitArguments {
     #[arg(long, global = true, value_name = "SECONDS", value_parser = seconds)]
     max_time: Option<Duration>,
 
-    /// The most memory of the program, in MB; beyond it, as for --max-time.
+    /// The most memory that the program may have in use. A robot with which it takes more is left out, or ends the run, as for
+    /// --max-time.
     #[arg(long, global = true, value_name = "MB", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     max_memory: Option<u64>,
 }

@@ -27,6 +27,7 @@ const OTHERS: &[&str] = &[
     "lsp-types",
     "memchr",
     "meshoptimizer-rs",
+    "memory-stats",
     "nalgebra",
     "numpy",
     "open",
@@ -91,7 +92,7 @@ const WHOLE_FILES: &[(&str, &str)] = &[
     ("crates/urdd-robot/src/batch.rs", "of the system"),
     ("crates/urdd-source/src/process/linux.rs", "of the system"),
     ("crates/urdd-view/src/collection.rs", "what was just written"),
-    ("src/cli/output.rs", "of the system"),
+    ("src/cli/watch.rs", "of the system"),
     ("src/suite/archive.rs", "the suite's own"),
 ];
 

@@ -255,7 +255,7 @@ fn what_is_unfinished_is_removed_and_what_is_finished_is_whole() {
     let (_reader, full) = full_pipe();
     let mut command =
         shop.command(&["generate", "robots", "-o", "out", "--threads", "2", "--modules", "core"]);
-    let mut started = Started(command.stdout(full).spawn().unwrap());
+    let started = Started(command.stdout(full).spawn().unwrap());
     let begun = Instant::now();
     let is_made = || fs::read_dir(shop.at("out")).is_ok_and(|made| made.count() > 0);
     while !is_made() {
