@@ -96,7 +96,7 @@ fn spheres_of_two_links_that_are_all_near_each_other_are_charged() {
         let both = vec![line(count, 0.0), line(count, 0.200_000_1)];
         touching(&both, &[[0, 1]], &samples, account)
     };
-    assert_eq!(found(50, &Account::default()).expect("little work"), vec![Vec::new(); 10]);
+    assert_eq!(found(50, &Account::default()).expect("little work"), vec![Vec::<u32>::new(); 10]);
     let costly = found(6000, &Account::default()).expect_err("36 million pairs ten times");
     assert_eq!((costly.links, costly.error.to_string().contains("memory or work")), ([0, 1], true));
     assert!(matches!(costly.error, AccountError::Overdrawn(_)));
