@@ -93,7 +93,7 @@ fn spheres_of_two_links_that_are_all_near_each_other_are_charged() {
     let still = Sample { poses: vec![Pose::from(&Isometry3::identity()); 2], touching: Vec::new() };
     let samples = vec![still; 10];
     let found = |count: u32, account: &Account| {
-        let both = vec![line(count, 0.0), line(count, 0.200_000_1)];
+        let both = vec![line(count, 0.0), line(count, 0.200_000_000_01)];
         touching(&both, &[[0, 1]], &samples, account)
     };
     assert_eq!(found(50, &Account::default()).expect("little work"), vec![Vec::<u32>::new(); 10]);
