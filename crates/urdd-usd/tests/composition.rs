@@ -227,3 +227,27 @@ fn words_of_text() {
     assert_eq!(targets(&stage, "/a.r"), ["/a/b", "/a.v"]);
     assert_eq!(a.place.1, 4);
 }
+
+/// A layer that is named again and again: its first place says the values, its last one the order. usd-core composes the same.
+#[test]
+fn a_layer_that_is_named_twice() {
+    let layer = |name: &str, value: u32| {
+        let schemas = format!("prepend apiSchemas = [\"{name}\"]");
+        format!(
+            "#usda 1.0\ndef \"p\" ({schemas}) {{\ndouble z = {value}\nadd rel r = </{name}>\ndef \"{name}\" {{}}\n}}"
+        )
+    };
+    for (layers, order) in [("bc", ["c", "b"]), ("bcb", ["b", "c"]), ("bcbcb", ["b", "c"])] {
+        let named: Vec<String> = layers.chars().map(|name| format!("@{name}.usda@")).collect();
+        let root = format!("#usda 1.0\n(subLayers = [{}])", named.join(", "));
+        let files =
+            [("root.usda", root.as_str()), ("b.usda", &layer("b", 1)), ("c.usda", &layer("c", 2))];
+        let stage = stage(&files).unwrap();
+        assert_eq!(number(&stage, "/p.z"), 1.0, "{layers}");
+        let children: Vec<&str> = stage.prims[1..].iter().map(|prim| &*prim.name).collect();
+        assert_eq!(children, order, "{layers}");
+        assert_eq!(targets(&stage, "/p.r"), order.map(|name| format!("/{name}")), "{layers}");
+        let schemas: Vec<&str> = stage.prims[0].schemas.iter().map(|name| &**name).collect();
+        assert_eq!(schemas, ["b", "c"], "{layers}");
+    }
+}

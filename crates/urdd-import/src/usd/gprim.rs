@@ -23,6 +23,8 @@ use crate::place::{Fallible, Placing};
 /// Bytes of a mesh in memory for each number of it, about: triangles, their hull, what is written; and of a copy.
 const MESH: usize = 60;
 const COPY: usize = 8;
+/// Steps of a face of a subset.
+const FACE: usize = 50;
 /// What makes two meshes one: where their points, counts and indices are in memory, what they are stretched by, and how
 /// their faces are turned.
 type MeshKey = ([usize; 3], [u64; 9], bool);
@@ -233,7 +235,10 @@ impl<'a, 's> Shapes<'a, 's> {
                 continue;
             }
             let indices = scene.value(*child, "indices")?.and_then(Value::numbers);
-            let own: BTreeSet<u32> = (indices.unwrap_or_default().iter())
+            let indices = indices.unwrap_or_default();
+            let charged = self.assets.gate.account().charge(FACE * indices.len());
+            charged.at(scene.place(*child))?;
+            let own: BTreeSet<u32> = (indices.iter())
                 .map(|index| *index as u32)
                 .filter(|face| !taken.contains(face))
                 .collect();

@@ -241,7 +241,7 @@ impl<'d> Composer<'d> {
         let mut site = at;
         while site != 0 {
             // All sites are compared.
-            let each = LOOK + path.len() / 16;
+            let each = 1 + path.len() / 16;
             self.charge(tree, names, path.len() + each * tree.0.len())?;
             let (above, stack) = (tree.0[site].above, tree.0[site].stack);
             let mapped = tree.above(site, &path);
