@@ -241,7 +241,7 @@ pub fn open<T>(
 ) -> Result<(SourceMeshes, T), SourceError> {
     let Some(imported) = import(path, settings)? else {
         let (source, also) = load_with(path, settings, cancellation, also)?;
-        return Ok((SourceMeshes::of(source, settings, None), also));
+        return Ok((SourceMeshes::of(source, settings, None)?, also));
     };
     let settings = imported.settings(settings)?;
     let (source, also) = imported.load_with(&settings, cancellation, |xml, _| also(xml, false))?;
@@ -254,7 +254,7 @@ pub fn open<T>(
             configurations: imported.configurations,
         }),
     };
-    Ok((SourceMeshes::of(source, &settings, Some(beside)), also))
+    Ok((SourceMeshes::of(source, &settings, Some(beside))?, also))
 }
 
 fn written(

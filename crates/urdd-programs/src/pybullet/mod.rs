@@ -36,7 +36,7 @@ pub const ABOUT: About = About {
 pub fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let lines = Lines::of(file.bytes);
     let reading = read_lines(file, &lines, effects);
-    for effect in &mut effects.0 {
+    for effect in effects.kept_mut() {
         effect.at = lines.place(effect.at).min(file.bytes.len());
     }
     reading

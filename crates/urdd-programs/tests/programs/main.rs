@@ -109,7 +109,7 @@ fn any_bytes_are_read_without_a_panic_and_with_places_inside_of_the_file() {
         }
         for program in Program::ALL {
             let Some(effects) = read_bytes(program, &row.base, &bytes) else { continue };
-            for effect in effects.0 {
+            for effect in effects.into_kept() {
                 let text = String::from_utf8_lossy(&bytes);
                 assert!(effect.at <= bytes.len(), "{}: {effect:?} of {text}", program.id());
             }
@@ -170,7 +170,7 @@ fn score(program: Program, letter: char, rows: &[table::Row]) -> Score {
         };
         score.rows += 1;
         if (ours == '+') != (verdict == '+') {
-            let first = effects.0.iter().max_by_key(|effect| effect.deed);
+            let first = effects.kept().iter().max_by_key(|effect| effect.deed);
             let why = first.map(|effect| effect.fault.to_string()).unwrap_or_default();
             score.wrong.push(format!("{}: {verdict}, and ours {ours} ({why})", row.id));
             continue;
