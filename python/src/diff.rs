@@ -21,10 +21,10 @@ pub fn diff(
     tolerance: f64,
     source: Source,
 ) -> PyResult<String> {
-    let urdf = source.settings().map_err(PyValueError::new_err)?;
+    let mut urdf = source.settings().map_err(PyValueError::new_err)?;
     let outcome = work::run(py, move |cancellation| -> Result<_, DiffError> {
-        let cancellation = cancellation.clone();
-        let options = Options { urdf, cancellation, without_findings: !findings };
+        urdf.cancellation = cancellation.clone();
+        let options = Options { urdf, without_findings: !findings };
         let (before, after) = (Side::open(&before, &options)?, Side::open(&after, &options)?);
         Ok(compare(&before, &after, tolerance))
     })?;

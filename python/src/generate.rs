@@ -6,7 +6,6 @@ use std::sync::{Mutex, PoisonError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use urdd_directory::cancellation::Cancellation;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleKind;
@@ -73,7 +72,6 @@ impl Options {
             drop_edits: self.drop_edits,
             force: self.force,
             donors: Vec::new(),
-            cancellation: Cancellation::default(),
         };
         settings.check().map_err(|error| error.to_string())?;
         Ok(settings)
@@ -132,7 +130,7 @@ fn with_progress<T: Send, E: Send>(
         None => Ok(()),
     };
     work::run_and_tell(py, hear, move |cancellation, teller| {
-        settings.cancellation = cancellation.clone();
+        settings.source.cancellation = cancellation.clone();
         let told = Told { teller, last: Mutex::default() };
         let made = make(&settings, &told);
         if made.is_ok() {
@@ -220,7 +218,7 @@ pub fn combine<'py>(
                 Recipe::of_two(&source, &held, name.as_deref(), &link, pose)?
             }
         };
-        let find_errors = |part: &Path| find_errors(part, &settings.cancellation);
+        let find_errors = |part: &Path| find_errors(part, &settings.source.cancellation);
         let distrusted = check_parts(&recipe, settings, find_errors)?;
         urdd_generate::combine::combine(&recipe, &target, settings, &distrusted, progress)
     })?;

@@ -7,7 +7,7 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use urdd_findings::baseline::Baseline;
 use urdd_findings::report;
-use urdd_findings::settings::{Settings, parse_program};
+use urdd_findings::settings::parse_program;
 use urdd_lint::{LintError, LintSettings};
 
 use crate::errors::raise;
@@ -46,8 +46,8 @@ pub fn lint(py: Python<'_>, paths: Vec<PathBuf>, options: Options) -> PyResult<S
     let baseline = baseline.map_err(|error| raise(py, "OpenError", error, &[]))?.map(Arc::new);
     let settings = options.settings().map_err(PyValueError::new_err)?;
     let outcome = work::run(py, move |cancellation| {
-        let report = Settings { cancellation: cancellation.clone(), ..settings.report };
-        let settings = LintSettings { report, baseline, ..settings };
+        let mut settings = LintSettings { baseline, ..settings };
+        settings.source.cancellation = cancellation.clone();
         let run = urdd_lint::lint(&paths, &settings)?;
         Ok(report::json(&run.report))
     })?;

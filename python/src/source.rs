@@ -87,8 +87,11 @@ pub fn import_robot<'py>(
     folder: PathBuf,
     source: Source,
 ) -> PyResult<Made<'py>> {
-    let settings = source.settings().map_err(PyValueError::new_err)?;
-    let outcome = work::run(py, move |cancellation| import_whole(&file, &settings, cancellation))?;
+    let mut settings = source.settings().map_err(PyValueError::new_err)?;
+    let outcome = work::run(py, move |cancellation| {
+        settings.cancellation = cancellation.clone();
+        import_whole(&file, &settings)
+    })?;
     let (imported, _) = outcome.map_err(|error| of_generate(py, &GenerateError::Source(error)))?;
     let files = imported.files.iter();
     let files = files.map(|(name, bytes)| (name.clone(), PyBytes::new(py, bytes))).collect();

@@ -100,7 +100,7 @@ fn put_together(arguments: &CombineArguments, signals: &Signals) -> Result<u8, F
         let progress = printer.begin(&job);
         pool.install(|| {
             let find_errors =
-                |part: &Path| urdd_validate::find_errors(part, &settings.cancellation);
+                |part: &Path| urdd_validate::find_errors(part, &settings.source.cancellation);
             let distrusted = check_parts(&recipe, &settings, find_errors)?;
             let mut made = combine(&recipe, &target, &settings, &distrusted, &*progress)?;
             made.notes.splice(..0, legacy_notes);

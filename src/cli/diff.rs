@@ -87,8 +87,11 @@ pub fn run(arguments: &DiffArguments) -> Result<u8, Failure> {
 }
 
 fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
-    let settings =
-        Settings { loops: arguments.named_loops.loops.clone(), ..arguments.packages.settings()? };
+    let settings = Settings {
+        loops: arguments.named_loops.loops.clone(),
+        cancellation: signals.cancellation(),
+        ..arguments.packages.settings()?
+    };
     // It is about the URDF of the two.
     let says_itself = |path: &Path| format_of(path, &settings.files).is_some();
     let is_of_one = says_itself(&arguments.before) != says_itself(&arguments.after);
@@ -97,7 +100,6 @@ fn diff(arguments: &DiffArguments, signals: &Signals) -> Result<u8, Failure> {
         let loops = settings.loops.clone().filter(|_| !(is_of_one && says_itself(path)));
         let options = Options {
             urdf: Settings { loops, xacro: arguments.xacro.settings(of_xacro), ..settings.clone() },
-            cancellation: signals.cancellation(),
             without_findings: arguments.no_findings,
         };
         Side::open(path, &options).map_err(|error| match error {

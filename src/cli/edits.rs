@@ -20,7 +20,7 @@ use urdd_format::registry::ModuleKind;
 use urdd_format::self_collision_model::LinkPair;
 use urdd_format::urdf::Geometry;
 use urdd_robot::Robot;
-use urdd_source::RobotFile;
+use urdd_source::{RobotFile, Settings};
 
 /// The commands of `urdd skips`.
 #[derive(Subcommand)]
@@ -162,7 +162,8 @@ fn spheres_of(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Fa
 }
 
 fn of_urdf(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Failure> {
-    let source = urdd_source::load(file, &around(), cancellation).map_err(one_line)?;
+    let settings = Settings { cancellation: cancellation.clone(), ..around() };
+    let source = urdd_source::load(file, &settings).map_err(one_line)?;
     let mut list = SphereList::default();
     for link in &source.reading.robot.links {
         let mut spheres = Vec::new();

@@ -300,6 +300,7 @@ impl MakingArguments {
             source: urdd_source::Settings {
                 xacro: self.xacro.settings(xacro_arguments),
                 loops: self.named_loops.loops.clone(),
+                cancellation: signals.cancellation(),
                 ..self.packages.settings()?
             },
             strict: self.strict,
@@ -307,7 +308,6 @@ impl MakingArguments {
             skipped_reasons: self.skip.clone(),
             reference: self.reference.clone(),
             force: self.force,
-            cancellation: signals.cancellation(),
             ..Settings::default()
         })
     }

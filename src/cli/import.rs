@@ -6,7 +6,6 @@ use clap::Args;
 
 use super::arguments::PackageArguments;
 use super::output::{self, Failure, shown};
-use urdd_directory::cancellation::Cancellation;
 use urdd_directory::outputs::{Output, Target};
 use urdd_format::readable::counted;
 use urdd_import::{Imported, import_whole};
@@ -46,7 +45,7 @@ pub struct ImportArguments {
 /// Runs `urdd import`. Returns what to print.
 pub fn run(arguments: &ImportArguments) -> Result<String, Failure> {
     let settings = arguments.packages.settings()?;
-    let (imported, source) = import_whole(&arguments.file, &settings, &Cancellation::default())?;
+    let (imported, source) = import_whole(&arguments.file, &settings)?;
     let robot = &source.reading.robot;
     let report = arguments.report.as_ref().map(|file| (file, imported.report.to_json()));
     let files = imported.files.iter();

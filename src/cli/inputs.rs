@@ -85,9 +85,12 @@ fn srdf_or_xacro(
             ))?,
         };
     }
-    let settings =
-        Settings { xacro: XacroSettings { arguments, ..XacroSettings::default() }, ..around() };
-    Ok(read_source(file, &settings, cancellation).map_err(one_line)?.text)
+    let settings = Settings {
+        xacro: XacroSettings { arguments, ..XacroSettings::default() },
+        cancellation: cancellation.clone(),
+        ..around()
+    };
+    Ok(read_source(file, &settings).map_err(one_line)?.text)
 }
 
 pub fn srdf(file: &Path) -> Result<String, Failure> {

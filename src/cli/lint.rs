@@ -101,7 +101,7 @@ fn lint(arguments: &LintArguments, color: Color, signals: &Signals) -> Result<u8
     if !arguments.programs.is_empty() {
         settings.report.programs.clone_from(&arguments.programs);
     }
-    settings.report.cancellation = signals.cancellation();
+    settings.source.cancellation = signals.cancellation();
     let (paths, xacro_arguments) = split(&arguments.paths);
     settings.source.xacro = arguments.xacro.settings(xacro_arguments);
     output::without_panic_messages(|| work(arguments, &paths, &settings, color))
@@ -200,6 +200,10 @@ fn write_robots(
 
 /// Writes a baseline. A file that is there must be one.
 fn write_baseline(file: &Path, run: &Run) -> Result<u8, Failure> {
+    if file.is_symlink() && !file.exists() {
+        let words = "it is a link that leads nowhere; remove it, or name another file";
+        return Err(about(file)(words).into());
+    }
     if file.exists() {
         Baseline::read(file)?;
     }

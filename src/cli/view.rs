@@ -100,9 +100,9 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
             xacro: arguments.xacro.settings(xacro_arguments),
             robots: arguments.declared.declared()?.into(),
             loops: arguments.named_loops.loops.clone(),
+            cancellation: signals.cancellation(),
             ..arguments.packages.settings()?
         },
-        cancellation: signals.cancellation(),
         ..urdd_generate::Settings::default()
     };
     // Generated URDDs exist as long as this value.

@@ -3,7 +3,6 @@
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use urdd_directory::cancellation::Cancellation;
 use urdd_directory::range::OutOfRange;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleKind;
@@ -85,7 +84,7 @@ fn import(files: &Files, question: &[u8]) -> Result<Value, String> {
     let mut settings = given.settings(&question.path)?;
     settings.import = options(question.body, question.model, question.ball, question.massless);
     let path = given.place(&question.path);
-    let imported = import_whole(&path, &settings, &Cancellation::default());
+    let imported = import_whole(&path, &settings);
     let (imported, _) = imported.map_err(|error| error.to_string())?;
     let report = serde_json::from_str::<Value>(&imported.report.to_json());
     let report = report.map_err(|error| error.to_string())?;

@@ -83,11 +83,8 @@ pub fn write_valid(
     folder: &Path,
     cancellation: &Cancellation,
 ) -> Result<Vec<String>> {
-    let settings = Settings {
-        num_samples: NUM_SAMPLES,
-        cancellation: cancellation.clone(),
-        ..Settings::default()
-    };
+    let mut settings = Settings { num_samples: NUM_SAMPLES, ..Settings::default() };
+    settings.source.cancellation = cancellation.clone();
     let mut other_bytes = Vec::new();
     for robot in names {
         let target = folder.join(robot);

@@ -5,7 +5,7 @@
 use std::collections::HashMap;
 
 use toml::{Table, Value};
-use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::account::{Account, AccountError};
 use urdd_format::diff_report::PartDifference;
 use urdd_format::report::Kind;
 use urdd_source::beside::Companion;
@@ -105,7 +105,7 @@ impl Way {
         root: Node<'_, '_>,
         label: &[&str],
         account: &Account,
-    ) -> Result<Fields, Overdrawn> {
+    ) -> Result<Fields, AccountError> {
         let mut fields = Fields::default();
         // Depth is bounded by the parser; a stack keeps it off the call stack.
         let mut open = vec![(root, String::new())];
@@ -244,7 +244,7 @@ fn of_srdf(text: &str) -> Result<Parts, String> {
         urdd_xml::parse(text, urdd_xml::Kind::Robot).map_err(|error| error.words(text))?;
     let account = account(text);
     let parts = children(document.root_element()).map(|(_, one)| srdf_element(one, &account));
-    let parts = parts.collect::<Result<Vec<_>, Overdrawn>>().map_err(|why| why.to_string())?;
+    let parts = parts.collect::<Result<Vec<_>, AccountError>>().map_err(|why| why.to_string())?;
     Ok(numbered(parts.into_iter()))
 }
 
@@ -265,7 +265,7 @@ const BY_NAMES: Way = Way { between: '.', has_names: true, has_numbers: true };
 /// A named configuration is one of a group.
 const OF_GROUP: (&str, &str) = ("group_state", "group");
 
-fn srdf_element(root: Node<'_, '_>, account: &Account) -> Result<(String, Fields), Overdrawn> {
+fn srdf_element(root: Node<'_, '_>, account: &Account) -> Result<(String, Fields), AccountError> {
     let attributes =
         NAMES_IN_SRDF.iter().find(|names| names.iter().all(|name| root.has_attribute(*name)));
     let mut names: Vec<&str> = attributes

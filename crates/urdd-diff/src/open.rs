@@ -4,10 +4,10 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use urdd_directory::account::Account;
 use urdd_directory::discover::{Found, discover};
 use urdd_directory::file_type::setup_beside;
-use urdd_directory::limits::Account;
-use urdd_directory::limits::MAX_TOML_BYTES;
+use urdd_directory::limits::MAX_SETUP_BYTES;
 use urdd_directory::path;
 use urdd_directory::regular;
 use urdd_directory::root::{ReadError, Root};
@@ -83,7 +83,8 @@ fn validation(
     if options.without_findings {
         return Ok(None);
     }
-    let settings = Settings { cancellation: options.cancellation.clone(), ..Settings::default() };
+    let settings =
+        Settings { cancellation: options.urdf.cancellation.clone(), ..Settings::default() };
     let run = validate(&settings).map_err(|error| match error {
         ValidateError::Discover(error) => DiffError::Discover(error),
         _ => DiffError::Cancelled,
@@ -102,7 +103,7 @@ fn open_urdf(path: &Path, is: RobotFile, options: &Options) -> Result<Side, Diff
         let is_validated = !options.without_findings && is_read;
         (other_parts(xml), is_validated.then(|| examine_urdf(xml, &name)))
     };
-    let opened = urdd_import::open(path, &options.urdf, &options.cancellation, also);
+    let opened = urdd_import::open(path, &options.urdf, also);
     let (source, (other_parts, examined)) = opened.map_err(DiffError::Urdf)?;
     let view = of_urdf(&source.robot);
     let files = source.meshes.iter().map(|mesh| {
@@ -179,7 +180,7 @@ fn open_urdd(
 fn setup(urdd: &Path) -> Option<Companion> {
     let path = setup_beside(urdd);
     path.symlink_metadata().ok()?;
-    let bytes = regular::read(&path, MAX_TOML_BYTES).map_err(|error| error.to_string());
+    let bytes = regular::read(&path, MAX_SETUP_BYTES).map_err(|error| error.to_string());
     Some(bytes.and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())))
 }
 

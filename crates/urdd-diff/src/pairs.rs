@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use nalgebra::{Matrix3, Vector3};
-use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::account::{Account, AccountError};
 use urdd_document::tree::Tree;
 use urdd_format::diff_report::{PairChange, PairDifference, PoseDifference};
 use urdd_robot::{Robot, ShapeKind};
@@ -80,7 +80,7 @@ pub fn differences(
         let links = [i, j].map(|link| names[link].to_owned());
         Ok(PairDifference { links, change, shapes })
     });
-    let found = found.collect::<Result<Vec<_>, Overdrawn>>();
+    let found = found.collect::<Result<Vec<_>, AccountError>>();
     found.map_err(|why| notes.push(format!("skipped pairs are not compared: {why}"))).ok()
 }
 

@@ -1,9 +1,8 @@
 //! One of the two robots, opened, and its degrees of freedom: as its modules state them, and as they follow from its joints.
 
 use thiserror::Error;
-use urdd_directory::cancellation::Cancellation;
+use urdd_directory::account::Account;
 use urdd_directory::discover::DiscoverError;
-use urdd_directory::limits::Account;
 use urdd_directory::loops_toml::File;
 use urdd_document::dof_layout::{DofLayout, bounds_without_limits, describe};
 use urdd_document::pose::has_quaternions;
@@ -28,8 +27,6 @@ use crate::shapes::Shapes;
 pub struct Options {
     /// Where the meshes of URDFs are, and how xacro files are expanded.
     pub urdf: SourceSettings,
-    /// Cancellation.
-    pub cancellation: Cancellation,
     /// Whether to leave out findings.
     pub without_findings: bool,
 }

@@ -3,6 +3,7 @@
 //! The files of a URDD on disk, in memory or in a zip archive: discovery, listing, safe reading and writing. Also JSON
 //! and YAML as text, and the folder of published schemas.
 
+pub mod account;
 pub mod cancellation;
 pub mod canonical;
 pub mod discover;

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::{Format, Shapes};
-use urdd_directory::limits::Overdrawn;
+use urdd_directory::account::AccountError;
 use urdd_directory::range::OutOfRange;
 use urdd_format::nearest::nearest;
 use urdd_format::urdf::JointType;
@@ -20,9 +20,9 @@ pub enum ExportError {
     /// An option is out of its range.
     #[error(transparent)]
     Range(#[from] OutOfRange),
-    /// Names are so long, and in so many pairs, that more would be written than [`Overdrawn`] allows.
+    /// Names are so long, and in so many pairs, that more would be written than an account allows.
     #[error(transparent)]
-    Overdrawn(#[from] Overdrawn),
+    Account(#[from] AccountError),
     /// The joints of the robot do not form a tree.
     #[error("the joints do not form a tree with one root: run `urdd validate` for details")]
     NoTree,

@@ -10,7 +10,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use crate::Layout;
-use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::account::{Account, AccountError};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_robot::Skips;
@@ -105,7 +105,7 @@ fn has(reasons: &[SkippedReason], reason: SkipReason) -> bool {
 ///
 /// # Errors
 /// If the pairs would take more than an account has that was given the names and the numbers.
-pub fn charge(bytes: usize, shapes: usize) -> Result<(), Overdrawn> {
+pub fn charge(bytes: usize, shapes: usize) -> Result<(), AccountError> {
     /// In memory, in elements and in the text.
     const COPIES: usize = 4;
     /// Bytes of a pair in a module, at least.
@@ -122,7 +122,7 @@ pub(super) fn pairs(
     names: &[String],
     reasons: Option<&[SkippedReason]>,
     keep_pairs: bool,
-) -> Result<Vec<LinkPair>, Overdrawn> {
+) -> Result<Vec<LinkPair>, AccountError> {
     let places = skips.places();
     charge(places.iter().map(|(link, _)| names[*link].len()).sum(), places.len())?;
     let decision = Decision::new(skips, names, reasons);

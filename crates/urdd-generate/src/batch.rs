@@ -57,7 +57,7 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
     // Outcomes that wait for earlier ones.
     let waiting = Mutex::new((0, BTreeMap::new()));
     let failed = jobs.par_iter().enumerate().map(|(idx, job)| {
-        if settings.cancellation.is_cancelled() {
+        if settings.source.cancellation.is_cancelled() {
             return 0;
         }
         let progress = observer.begin(job);

@@ -118,7 +118,7 @@ pub(super) fn self_collision_model(
     let progress = |done: usize, total: usize| {
         context.progress.part(ModuleKind::SelfCollisionModel, done, total);
     };
-    match train(subject, &context.settings.cancellation, &progress) {
+    match train(subject, &context.settings.source.cancellation, &progress) {
         Ok(module) => made(&module),
         Err(NoModel::OfNoUse(useless)) => {
             let problem = format!("a self-collision model would be of no use: {useless}");
@@ -203,7 +203,7 @@ pub(super) fn spheres(
         let problem = format!("{} given spheres are of the link `{name}`, {what}", spheres.len());
         notes.push(context.note(NoteKind::LeftOut, problem, "these spheres are left out"));
     }
-    match module::module(&subject, &context.settings.cancellation, &progress) {
+    match module::module(&subject, &context.settings.source.cancellation, &progress) {
         Ok(module) => Ok(Made { notes, ..made(&module)? }),
         Err(NoSpheres::Cancelled(cancelled)) => Err(cancelled.into()),
         Err(NoSpheres::Robot(error)) => Err(context.unmeasurable(error)),

@@ -75,7 +75,7 @@ impl<'a> Context<'a> {
             bounds: &bounds,
             space: &space,
             kinematics: &kinematics,
-            cancellation: &settings.cancellation,
+            cancellation: &settings.source.cancellation,
         };
         let beginning = reference.as_ref().map(|reference| &*reference.configuration);
         let (loops, loop_notes) = found.module(beginning)?;

@@ -105,7 +105,7 @@ impl<'a> Modules<'a> {
         if !self.selected.contains(&kind) {
             return Ok(None);
         }
-        let Settings { cancellation, .. } = self.context.settings;
+        let cancellation = &self.context.settings.source.cancellation;
         cancellation.check()?;
         self.context.progress.module(kind, self.num_started, self.selected.len());
         self.num_started += 1;

@@ -90,12 +90,12 @@ fn load(
 ) -> Result<(Option<Imported>, Source, Settings)> {
     progress.reads(path);
     let Some(imported) = import(path, &settings.source)? else {
-        let source = urdd_source::load(path, &settings.source, &settings.cancellation)?;
+        let source = urdd_source::load(path, &settings.source)?;
         return Ok((None, source, settings.clone()));
     };
     imported.read.iter().for_each(|file| progress.reads(file));
     let settings = Settings { source: imported.settings(&settings.source)?, ..settings.clone() };
-    let mut source = imported.load(&settings.source, &settings.cancellation)?;
+    let mut source = imported.load(&settings.source)?;
     source.notes.extend(imported.report.notes(&imported.shown));
     source.shown = format!("{} (as {})", imported.shown, imported.urdf);
     Ok((Some(imported), source, settings))
@@ -226,7 +226,7 @@ fn make(
     check_place(path, source, target)?;
     check_assumptions(&source.notes, settings)?;
     // From here on, no other run changes the target.
-    let staging = Staging::begin(target, &settings.cancellation)?;
+    let staging = Staging::begin(target, &settings.source.cancellation)?;
     let donor = Root::open_folder(target).ok().and_then(Donor::open);
     let replaced = donor.as_ref();
     let decisions = match settings.drop_edits {
@@ -261,7 +261,7 @@ fn make(
     let text = written.metadata(&source.reading.robot.name, given.origin, extensions)?;
     writer.file(ROOT_METADATA, text.as_bytes())?;
     let changed = !replaced.is_some_and(|replaced| is_same(replaced, target, &text, &written.made));
-    settings.cancellation.check()?;
+    settings.source.cancellation.check()?;
     if changed {
         staging.commit()?;
     }

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use crate::selection::Selection;
-use urdd_directory::cancellation::Cancellation;
 use urdd_directory::range::{OutOfRange, Range};
 use urdd_directory::root::Root;
 use urdd_format::link_shapes_skips::SkippedReason;
@@ -55,11 +54,6 @@ pub struct Settings {
     pub donors: Vec<Root>,
     /// The effort for training a self-collision model.
     pub model_effort: Effort,
-    /// Cancellation, checked before each module and mesh. A cancelled run returns [`GenerateError::Cancelled`] and
-    /// changes nothing.
-    ///
-    /// [`GenerateError::Cancelled`]: crate::GenerateError::Cancelled
-    pub cancellation: Cancellation,
 }
 
 /// The files of a derived mesh besides its .glb, which is always written: SPEC 7.1.
@@ -125,7 +119,6 @@ impl Default for Settings {
             force: false,
             donors: Vec::new(),
             model_effort: Effort::default(),
-            cancellation: Cancellation::default(),
         }
     }
 }

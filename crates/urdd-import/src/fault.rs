@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use thiserror::Error;
-use urdd_directory::limits::Overdrawn;
+use urdd_directory::account::AccountError;
 use urdd_directory::listing::ReadError;
 use urdd_format::short::Short;
 use urdd_source::NotFound;
@@ -18,7 +18,7 @@ pub enum ImportFault {
     #[error("`{attribute}` of `<{element}>` is `{value}`, which is not {wanted}")]
     Value { element: String, attribute: String, value: String, wanted: &'static str },
     #[error(transparent)]
-    TooMuch(#[from] Overdrawn),
+    Account(#[from] AccountError),
     #[error(transparent)]
     Mjcf(#[from] MjcfFault),
     #[error(transparent)]
@@ -32,7 +32,7 @@ impl ImportFault {
     pub fn of_image(file: &str, why: ImageFault) -> Self {
         match why {
             ImageFault::Unread(why) => Unreachable::unread(file, &why).into(),
-            ImageFault::TooMuch(why) => why.into(),
+            ImageFault::Account(why) => why.into(),
         }
     }
 }

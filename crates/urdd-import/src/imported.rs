@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
-use urdd_directory::cancellation::Cancellation;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::account::AccountError;
+use urdd_directory::limits::{MAX_DOCUMENT_BYTES, MAX_SETUP_BYTES, MAX_SRDF_BYTES};
 use urdd_directory::path::{self, portable};
 use urdd_directory::writer::sha256;
 use urdd_format::link_shapes_skips::SkipEdit;
@@ -25,9 +25,10 @@ use urdd_source::{
 };
 use urdd_xml::Xml;
 
+use crate::fault::ImportFault;
 use crate::features::Report;
 use crate::model::{Geometry, Model};
-use crate::place::{Placed, Positions, Refusal, TextFile, placed};
+use crate::place::{Place, Placed, Positions, Refusal, TextFile, at, placed};
 use crate::tree::Tree;
 use crate::urdf::{self, UNIT_SPHERE, urdf};
 use crate::{mjcf, sdf, usd};
@@ -89,22 +90,17 @@ impl Imported {
     ///
     /// # Errors
     /// If it is not a valid robot.
-    pub fn load(
-        &self,
-        settings: &Settings,
-        cancellation: &Cancellation,
-    ) -> Result<Source, SourceError> {
-        Ok(self.load_with(settings, cancellation, |_, _| ())?.0)
+    pub fn load(&self, settings: &Settings) -> Result<Source, SourceError> {
+        Ok(self.load_with(settings, |_, _| ())?.0)
     }
 
     /// As [`Imported::load`]; `also` reads the text, too: see [`load_with`].
     fn load_with<T>(
         &self,
         settings: &Settings,
-        cancellation: &Cancellation,
         also: impl FnOnce(&Xml<'_>, bool) -> T,
     ) -> Result<(Source, T), SourceError> {
-        let loaded = load_with(&Path::new("/").join(&self.urdf), settings, cancellation, also);
+        let loaded = load_with(&Path::new("/").join(&self.urdf), settings, also);
         let (mut source, also) = loaded.map_err(|error| match error {
             SourceError::Refused { mut faults, .. } => {
                 faults.iter_mut().for_each(|fault| (fault.line, fault.column) = (0, 0));
@@ -207,6 +203,9 @@ pub fn import(path: &Path, settings: &Settings) -> Result<Option<Imported>, Sour
 }
 
 fn refused(Placed { file, line, column, fault }: Placed) -> SourceError {
+    if let ImportFault::Account(AccountError::Cancelled(why)) = fault {
+        return why.into();
+    }
     SourceError::Import { file, line, column, fault: fault.to_string() }
 }
 
@@ -214,17 +213,13 @@ fn refused(Placed { file, line, column, fault }: Placed) -> SourceError {
 ///
 /// # Errors
 /// As for [`import`]; also if the file is a URDF, or cannot be read.
-pub fn import_whole(
-    path: &Path,
-    settings: &Settings,
-    cancellation: &Cancellation,
-) -> Result<(Imported, Source), SourceError> {
+pub fn import_whole(path: &Path, settings: &Settings) -> Result<(Imported, Source), SourceError> {
     let Some(imported) = import(path, settings)? else {
         // An error that says more, if it cannot be read.
-        load(path, settings, cancellation)?;
+        load(path, settings)?;
         return Err(SourceError::IsUrdf { file: path.display().to_string() });
     };
-    let source = imported.load(&imported.settings(settings)?, cancellation)?;
+    let source = imported.load(&imported.settings(settings)?)?;
     Ok((imported, source))
 }
 
@@ -236,15 +231,14 @@ pub fn import_whole(
 pub fn open<T>(
     path: &Path,
     settings: &Settings,
-    cancellation: &Cancellation,
     also: impl FnOnce(&Xml<'_>, bool) -> T,
 ) -> Result<(SourceMeshes, T), SourceError> {
     let Some(imported) = import(path, settings)? else {
-        let (source, also) = load_with(path, settings, cancellation, also)?;
+        let (source, also) = load_with(path, settings, also)?;
         return Ok((SourceMeshes::of(source, settings, None)?, also));
     };
     let settings = imported.settings(settings)?;
-    let (source, also) = imported.load_with(&settings, cancellation, |xml, _| also(xml, false))?;
+    let (source, also) = imported.load_with(&settings, |xml, _| also(xml, false))?;
     let text = |bytes: &[u8]| Ok(String::from_utf8_lossy(bytes).into_owned());
     let beside = Beside {
         srdf: imported.srdf().map(text),
@@ -265,7 +259,9 @@ fn written(
     gate: &Gate,
 ) -> Result<Imported, SourceError> {
     let too_much = |why: Refusal| refused(placed(&model.files, why));
-    let tree = Tree::of(&model, options, gate.account()).map_err(too_much)?;
+    let account = gate.account();
+    let tree = Tree::of(&model, options, account).map_err(too_much)?;
+    let whole = |why: AccountError| too_much(at(Place::default(), why));
     let original = portable(shown.rsplit(['/', '\\']).next().unwrap_or_default());
     let base = match model.name.trim_start_matches(['.', '-']) {
         "" => "robot",
@@ -276,20 +272,32 @@ fn written(
     let base = base.strip_suffix(SETUP).unwrap_or(&base);
     let name = format!("{base}.urdf");
     let mut files: BTreeMap<String, Arc<[u8]>> = BTreeMap::new();
-    let text = urdf(&model, &tree, &original, options, gate.account()).map_err(too_much)?;
+    let text = urdf(&model, &tree, &original, options, account).map_err(too_much)?;
     files.insert(name.clone(), text.into_bytes().into());
     let companions = [
-        (SRDF, urdf::srdf(&model, &tree, &original)),
-        (LOOPS, urdf::loops(&model)),
-        (SETUP, urdf::setup(&model, &tree)),
+        (SRDF, urdf::srdf(&model, &tree, &original, account).map_err(whole)?),
+        (LOOPS, urdf::loops(&model, account).map_err(whole)?),
+        (SETUP, urdf::setup(&model, &tree, account).map_err(whole)?),
     ];
-    files.extend(
-        companions.into_iter().filter_map(|(ending, text)| {
-            Some((base.to_owned() + ending, text?.into_bytes().into()))
-        }),
-    );
-    let mut shapes = model.bodies.iter().flat_map(|body| &body.shapes);
-    if shapes.any(|shape| matches!(shape.geometry, Geometry::Ellipsoid(_))) {
+    for (ending, text) in companions {
+        let Some(text) = text else { continue };
+        let limit = if ending == SRDF { MAX_SRDF_BYTES } else { MAX_SETUP_BYTES };
+        // What is written must be readable.
+        if text.len() as u64 > limit {
+            let reason = format!(
+                "its `{base}{ending}` would be longer than {} MiB; shorten what is repeated: names, configurations, pairs",
+                limit >> 20
+            );
+            return Err(SourceError::unread(&shown, reason));
+        }
+        files.insert(base.to_owned() + ending, text.into_bytes().into());
+    }
+    let mut has_ellipsoids = false;
+    for body in model.bodies.walk(account).map_err(whole)? {
+        let mut shapes = body.shapes.walk(account).map_err(whole)?;
+        has_ellipsoids |= shapes.any(|shape| matches!(shape.geometry, Geometry::Ellipsoid(_)));
+    }
+    if has_ellipsoids {
         let part = Part { mesh: primitives::sphere(1.0), ..Part::default() };
         let sphere = obj(&[part]).map_err(|error| SourceError::Internal {
             file: shown.clone(),
@@ -297,11 +305,13 @@ fn written(
         })?;
         files.insert(UNIT_SPHERE.to_owned(), sphere.into());
     }
-    for asset in &model.assets {
+    for asset in model.assets.walk(account).map_err(whole)? {
         files.insert(asset.path.clone(), Arc::clone(&asset.bytes));
     }
-    let links = tree.links.iter().map(|link| ("link", &link.name, link.place));
-    let joints = tree.joints.iter().map(|edge| ("joint", &edge.name, edge.place));
+    let links =
+        tree.links.walk(account).map_err(whole)?.map(|link| ("link", &link.name, link.place));
+    let joints =
+        tree.joints.walk(account).map_err(whole)?.map(|edge| ("joint", &edge.name, edge.place));
     let positions = Positions::of(&model.files);
     let shown_files: Vec<Arc<str>> = model.files.iter().map(|file| (&*file.shown).into()).collect();
     let places = links.chain(joints).filter_map(|(kind, name, place)| {
@@ -320,8 +330,8 @@ fn written(
     }
     Ok(Imported {
         places: places.collect(),
-        configurations: urdf::configurations(&model, &tree),
-        skips: urdf::skips(&model),
+        configurations: urdf::configurations(&model, &tree, account).map_err(whole)?,
+        skips: urdf::skips(&model, account).map_err(whole)?,
         report,
         origin: origin(format, &model.files),
         original: model.files.first().map_or_else(String::new, |file| file.text.clone()),

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
-use urdd_directory::limits::{Charged, Cost};
+use urdd_directory::account::{Charged, Cost};
 use urdd_format::loops::LoopKind;
 
 use crate::features::{self, Feature, Tally};

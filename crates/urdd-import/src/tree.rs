@@ -4,7 +4,7 @@
 use std::collections::{HashMap, HashSet};
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use urdd_directory::limits::{Account, Charged, Cost, Overdrawn};
+use urdd_directory::account::{Account, AccountError, Charged, Cost};
 use urdd_source::ImportOptions;
 use urdd_xml::number::numbers;
 
@@ -68,14 +68,14 @@ impl Tree {
     pub fn of(model: &Model, options: &ImportOptions, account: &Account) -> Fallible<Self> {
         let (links, joints) = (Names::new(account), Names::new(account));
         let mut names = Taken { links, joints, account };
-        for body in &model.bodies {
+        for body in model.bodies.walk(account).at(Place::default())? {
             names.links.take(&body.name).at(body.place)?;
-            for joint in &body.joints {
+            for joint in body.joints.walk(account).at(body.place)? {
                 names.joints.take(&joint.name).at(body.place)?;
             }
         }
         let mut tree = Tree::default();
-        for (at, body) in model.bodies.iter().enumerate() {
+        for (at, body) in model.bodies.walk(account).at(Place::default())?.enumerate() {
             let parent = body.parent.and_then(|parent| model.bodies.get(parent));
             if let Some(parent) = parent {
                 let connected = tree.connect(at, body, &parent.name, options, &mut names);
@@ -94,13 +94,13 @@ impl Tree {
         parent: &str,
         options: &ImportOptions,
         names: &mut Taken<'_>,
-    ) -> Result<(), Overdrawn> {
+    ) -> Result<(), AccountError> {
         let mut parent = parent.to_owned();
         let mut origin = body.pose;
         let mut left: usize = 0;
         let moves: Vec<Move> = body
             .joints
-            .iter()
+            .walk(names.account)?
             .enumerate()
             .flat_map(|(which, joint)| moves(which, joint, options))
             .collect();
@@ -233,13 +233,13 @@ impl Names {
     }
 
     /// Takes a name; `false` if it was taken.
-    pub fn take(&mut self, name: &str) -> Result<bool, Overdrawn> {
+    pub fn take(&mut self, name: &str) -> Result<bool, AccountError> {
         self.account.charge(NAME + COPIES * name.len())?;
         Ok(self.taken.insert(name.to_owned()))
     }
 
     /// The first free of `wanted`, `wanted_2`, `wanted_3` and so on.
-    pub fn free(&mut self, wanted: &str) -> Result<String, Overdrawn> {
+    pub fn free(&mut self, wanted: &str) -> Result<String, AccountError> {
         let mut name = wanted.to_owned();
         while !self.take(&name)? {
             let number = self.last.entry(wanted.to_owned()).or_insert(1);
@@ -267,13 +267,18 @@ impl Titles {
     }
 
     /// The name of a shape of a link: its own, or with the link's if another shape of the robot has it.
-    pub fn shape(&mut self, is_visual: bool, link: &str, name: &str) -> Result<String, Overdrawn> {
+    pub fn shape(
+        &mut self,
+        is_visual: bool,
+        link: &str,
+        name: &str,
+    ) -> Result<String, AccountError> {
         let names = if is_visual { &mut self.visuals } else { &mut self.collisions };
         if names.take(name)? { Ok(name.to_owned()) } else { names.free(&format!("{link}/{name}")) }
     }
 
     /// The name of a material: the same for what is the same.
-    pub fn material(&mut self, model: &Model, of: &Material) -> Result<String, Overdrawn> {
+    pub fn material(&mut self, model: &Model, of: &Material) -> Result<String, AccountError> {
         let texture = of.texture.and_then(|texture| model.assets.get(texture));
         let texture = texture.map_or("", |file| &file.path);
         let name = match (&of.name, of.rgba) {

@@ -4,8 +4,8 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use urdd_directory::account::{Account, AccountError};
 use urdd_directory::export_toml::{ActuatorKind, File, JointGains, unplaced};
-use urdd_directory::limits::{Account, Overdrawn};
 use urdd_directory::loops_toml::{self, CouplingTable, LoopTable};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
@@ -17,7 +17,7 @@ use urdd_xml::number::numbers;
 use urdd_xml::writer::Element;
 
 use crate::model::{Geometry, Inertial, Joint, JointKind, Material, Model, Shape, Use};
-use crate::place::{Fallible, Placing};
+use crate::place::{Fallible, Place, Placing};
 use crate::tree::{Edge, Link, Titles, Tree};
 
 /// The limits of a slide that has none, m.
@@ -42,9 +42,11 @@ pub fn urdf(
 ) -> Fallible<String> {
     let mut titles = Titles::new(account);
     let mut robot = Element::new("robot").with("name", &*model.name);
-    let mut edges = tree.joints.iter();
-    for link in &tree.links {
-        robot.push(link_element(model, link, options, &mut titles).at(link.place)?);
+    let start = Place::default();
+    let mut edges = tree.joints.walk(account).at(start)?;
+    for link in tree.links.walk(account).at(start)? {
+        let element = link_element(model, link, options, &mut titles, account);
+        robot.push(element.at(link.place)?);
         // Each link but the root follows the joint that leads to it.
         if link.name == tree.links[0].name {
             continue;
@@ -54,7 +56,7 @@ pub fn urdf(
         }
     }
     robot.extend(edges.map(|edge| joint_element(model, edge)));
-    for element in &model.elements {
+    for element in model.elements.walk(account).at(start)? {
         robot.push_raw(&element.0);
     }
     Ok(robot.document(&[format!("`urdd import` made this file from {original}.")]))
@@ -65,7 +67,8 @@ fn link_element(
     link: &Link,
     options: &ImportOptions,
     titles: &mut Titles,
-) -> Result<Element, Overdrawn> {
+    account: &Account,
+) -> Result<Element, AccountError> {
     let mut element = Element::new("link").with("name", &*link.name);
     let Some(body) = link.body.map(|body| &model.bodies[body]) else {
         let tiny = Inertial::along_axes(TINY, [TINY; 3]);
@@ -76,7 +79,7 @@ fn link_element(
     for (name, is_wanted) in
         [("visual", [Use::Visual, Use::Both]), ("collision", [Use::Collision, Use::Both])]
     {
-        let shapes = body.shapes.iter().filter(|shape| is_wanted.contains(&shape.used));
+        let shapes = body.shapes.walk(account)?.filter(|shape| is_wanted.contains(&shape.used));
         for shape in shapes {
             let title = shape.name.as_ref();
             let title = title.map(|title| titles.shape(name == "visual", &link.name, title));
@@ -203,22 +206,30 @@ fn origin(pose: &Isometry3<f64>) -> Option<Element> {
 const GROUP: &str = "all";
 
 /// The joints of the URDF that are DOFs: each with the values that it has in the configurations.
-fn movable(tree: &Tree) -> impl Iterator<Item = &Edge> {
-    tree.joints.iter().filter(|edge| edge.joint.is_some() && edge.mimic.is_none())
+fn movable<'t>(
+    tree: &'t Tree,
+    account: &Account,
+) -> Result<impl Iterator<Item = &'t Edge>, AccountError> {
+    let all = tree.joints.walk(account)?;
+    Ok(all.filter(|edge| edge.joint.is_some() && edge.mimic.is_none()))
 }
 
-/// The values of the joints of the URDF in a configuration, by joint, with what its DOFs add to its name.
+/// The values of a joint of the URDF, with what its DOFs add to its name.
+type JointValues<'t> = (&'t str, Vec<f64>, &'static [&'static str]);
+
+/// The values of the joints of the URDF in a configuration.
 fn values<'t>(
     model: &Model,
     tree: &'t Tree,
     at: usize,
-) -> Vec<(&'t str, Vec<f64>, &'static [&'static str])> {
+    account: &Account,
+) -> Result<Vec<JointValues<'t>>, AccountError> {
     let configuration = &model.configurations[at].values;
     let by_joint: HashMap<(usize, usize), &[f64]> =
-        configuration.iter().map(|value| (value.joint, &*value.values)).collect();
+        configuration.walk(account)?.map(|value| (value.joint, &*value.values)).collect();
     let mut turns: HashMap<(usize, usize), usize> = HashMap::new();
     let mut all = Vec::new();
-    for edge in movable(tree) {
+    for edge in movable(tree, account)? {
         let Some((body, place)) = edge.joint else { continue };
         let joint = &model.bodies[body].joints[place];
         let Some(values) = by_joint.get(&(body, place)) else { continue };
@@ -234,7 +245,7 @@ fn values<'t>(
         };
         all.push((&*edge.name, own, dofs));
     }
-    all
+    Ok(all)
 }
 
 /// The angles about x, then y, then z as they are turned, of a rotation vector.
@@ -247,55 +258,66 @@ fn in_turn(vector: [f64; 3]) -> [f64; 3] {
 }
 
 /// The named configurations, as a URDD has them.
-pub fn configurations(model: &Model, tree: &Tree) -> Vec<ConfigurationEdit> {
-    let edit = |at: usize| {
-        let positions = values(model, tree, at).into_iter().flat_map(|(joint, values, dofs)| {
+pub fn configurations(
+    model: &Model,
+    tree: &Tree,
+    account: &Account,
+) -> Result<Vec<ConfigurationEdit>, AccountError> {
+    let mut all = Vec::new();
+    for (at, configuration) in model.configurations.walk(account)?.enumerate() {
+        let Some(name) = ConfigurationName::new(&configuration.name) else { continue };
+        let positions = values(model, tree, at, account)?.into_iter();
+        let positions = positions.flat_map(|(joint, values, dofs)| {
             let names = dofs.iter().map(move |dof| format!("{joint}{dof}"));
             names.zip(values).map(|(dof_name, position)| DofPosition { dof_name, position })
         });
-        let name = ConfigurationName::new(&model.configurations[at].name)?;
-        Some(ConfigurationEdit { name, positions: positions.collect() })
-    };
-    (0..model.configurations.len()).filter_map(edit).collect()
+        all.push(ConfigurationEdit { name, positions: positions.collect() });
+    }
+    Ok(all)
 }
 
 /// The pairs that are never checked, and those that are, as a URDD has them. That of neighbours needs no edit.
-pub fn skips(model: &Model) -> Vec<SkipEdit> {
-    let apart = model.apart.iter().filter(|apart| apart.reason != "Adjacent");
+pub fn skips(model: &Model, account: &Account) -> Result<Vec<SkipEdit>, AccountError> {
+    let apart = model.apart.walk(account)?.filter(|apart| apart.reason != "Adjacent");
     let apart = apart.map(|apart| (apart, true));
-    let checked = model.checked.iter().map(|pair| (pair, false));
+    let checked = model.checked.walk(account)?.map(|pair| (pair, false));
     let edit = apart.chain(checked).map(|(pair, skip)| {
         let [link_a, link_b] = pair.bodies.map(|body| model.bodies[body].name.clone());
         SkipEdit { link_a, link_b, skip, reason: format!("imported: {}", pair.reason) }
     });
-    edit.collect()
+    Ok(edit.collect())
 }
 
 /// The text of `NAME.srdf`; none where it would say nothing.
-pub fn srdf(model: &Model, tree: &Tree, original: &str) -> Option<String> {
+pub fn srdf(
+    model: &Model,
+    tree: &Tree,
+    original: &str,
+    account: &Account,
+) -> Result<Option<String>, AccountError> {
     if model.configurations.is_empty() && model.apart.is_empty() {
-        return None;
+        return Ok(None);
     }
     let mut robot = Element::new("robot").with("name", &*model.name);
     if !model.configurations.is_empty() {
         let mut group = write::group(GROUP);
-        group.extend(movable(tree).map(|edge| write::joint(&edge.name)));
+        group.extend(movable(tree, account)?.map(|edge| write::joint(&edge.name)));
         robot.push(group);
     }
-    for (at, configuration) in model.configurations.iter().enumerate() {
-        let values = values(model, tree, at).into_iter();
+    for (at, configuration) in model.configurations.walk(account)?.enumerate() {
+        let values = values(model, tree, at, account)?.into_iter();
         let values = values.map(|(joint, values, _)| (joint, numbers(&values)));
         robot.push(write::state(&configuration.name, GROUP, values));
     }
-    for apart in &model.apart {
+    for apart in model.apart.walk(account)? {
         let links = apart.bodies.map(|body| &*model.bodies[body].name);
         robot.push(write::disabled(links, apart.reason));
     }
-    Some(robot.document(&[format!("`urdd import` made this file from {original}.")]))
+    Ok(Some(robot.document(&[format!("`urdd import` made this file from {original}.")])))
 }
 
 /// The text of `NAME.loops.toml`; none where it would say nothing.
-pub fn loops(model: &Model) -> Option<String> {
+pub fn loops(model: &Model, account: &Account) -> Result<Option<String>, AccountError> {
     let mut file = loops_toml::File::default();
     let mut names = HashSet::new();
     let mut named = |name: &Option<String>, kind: &str, place: usize| {
@@ -306,7 +328,7 @@ pub fn loops(model: &Model) -> Option<String> {
         names.insert(free.clone());
         free
     };
-    for (place, closing) in model.closings.iter().enumerate() {
+    for (place, closing) in model.closings.walk(account)?.enumerate() {
         let [a, b] = &closing.ends;
         file.loops.push(unplaced(LoopTable {
             name: named(&closing.name, "loop_", place),
@@ -317,7 +339,7 @@ pub fn loops(model: &Model) -> Option<String> {
             frame_b: table(&b.frame),
         }));
     }
-    for (place, coupled) in model.couplings.iter().enumerate() {
+    for (place, coupled) in model.couplings.walk(account)?.enumerate() {
         let mut terms = BTreeMap::new();
         for (joint, coefficients) in &coupled.terms {
             terms.insert(unplaced(joint.clone()), coefficients.clone());
@@ -326,17 +348,21 @@ pub fn loops(model: &Model) -> Option<String> {
         file.couplings.push(unplaced(CouplingTable { name, constant: coupled.constant, terms }));
     }
     if file.is_empty() {
-        return None;
+        return Ok(None);
     }
     let head = "# `urdd import` made this file: what closes the chains of the robot; `urdd generate` reads it.\n";
-    file.to_text().ok().map(|text| head.to_owned() + &text)
+    Ok(file.to_text().ok().map(|text| head.to_owned() + &text))
 }
 
 /// The text of `NAME.export.toml`; none where it would say nothing.
-pub fn setup(model: &Model, tree: &Tree) -> Option<String> {
+pub fn setup(
+    model: &Model,
+    tree: &Tree,
+    account: &Account,
+) -> Result<Option<String>, AccountError> {
     let mut file = File::of(&model.name);
     // Nothing drives a joint that follows another.
-    for edge in movable(tree) {
+    for edge in movable(tree, account)? {
         let Some((body, place)) = edge.joint else { continue };
         let gains = gains(&model.bodies[body].joints[place]);
         if gains != JointGains::default() {
@@ -344,11 +370,11 @@ pub fn setup(model: &Model, tree: &Tree) -> Option<String> {
         }
     }
     if file.actuators.joint.is_empty() && !model.is_floating && model.friction.is_none() {
-        return None;
+        return Ok(None);
     }
     if model.is_floating {
         file.base.floating = true;
-        let named = model.configurations.iter();
+        let named = model.configurations.walk(account)?;
         let named = named.filter(|of| ConfigurationName::new(&of.name).is_some());
         let poses =
             named.filter_map(|of| Some((unplaced(of.name.clone()), unplaced(of.base?.to_vec()))));
@@ -356,7 +382,7 @@ pub fn setup(model: &Model, tree: &Tree) -> Option<String> {
     }
     file.contact.friction = model.friction.map(unplaced);
     let head = "# `urdd import` made this file; `urdd export --setup` reads it.\n";
-    file.to_text().ok().map(|text| head.to_owned() + &text)
+    Ok(file.to_text().ok().map(|text| head.to_owned() + &text))
 }
 
 /// What exports read of the actuator of a joint.

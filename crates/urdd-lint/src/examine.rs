@@ -174,7 +174,7 @@ impl Job<'_> {
             rules_to_run(self.settings).partition(is_of_programs);
         let run = |rules: Vec<&'static LintRule>, checks: &mut Vec<Check>| {
             for rule in rules {
-                if self.settings.report.cancellation.is_cancelled() {
+                if self.settings.source.cancellation.is_cancelled() {
                     break;
                 }
                 let description = &rule.description;

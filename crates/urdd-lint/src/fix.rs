@@ -1,5 +1,6 @@
 //! Mends what has one right answer, in the file that a path leads to.
 
+use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -79,7 +80,7 @@ pub fn mend(
     files.dedup();
     let to = |path: &Path| target(path, paths, is_forced).ok();
     let mended = files.par_iter().filter_map(|path| mended(path, settings, to)).collect();
-    settings.report.cancellation.check()?;
+    settings.source.cancellation.check()?;
     Ok(mended)
 }
 
@@ -88,8 +89,7 @@ fn mended(
     settings: &LintSettings,
     target: impl Fn(&Path) -> Option<Result<PathBuf, LeftAlone>>,
 ) -> Option<Mended> {
-    let read =
-        urdd_source::read_source(path, &settings.source, &settings.report.cancellation).ok()?;
+    let read = urdd_source::read_source(path, &settings.source).ok()?;
     // Fixes of an MJCF, SDF or USD are for the URDF that an import makes of it.
     if Format::of(&read.text).is_some() || read.trail.is_some() {
         return None;
@@ -108,7 +108,7 @@ fn mended(
         let examined = settings.apply(Some(path), name.clone(), examined);
         let findings = examined.checks.iter().flat_map(|check| &check.findings);
         let (next, mended) = with_fixes(&text, &name, findings.flat_map(Finding::places));
-        if mended == 0 || settings.report.cancellation.is_cancelled() {
+        if mended == 0 || settings.source.cancellation.is_cancelled() {
             break;
         }
         (text, places) = (next, places + mended);
@@ -132,20 +132,24 @@ fn with_fixes<'a>(
         place.fixes.iter().find(of_file)
     });
     let mut all: Vec<Edit> = Vec::new();
+    // The ends of edits by their beginnings: none touches another fix.
+    let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
     let mut mended = 0;
     for fix in fixes {
         let edits: Option<Vec<Edit>> = fix.edits.iter().map(|edit| edit_of(&lines, edit)).collect();
         let Some(edits) = edits else { continue };
         let touches = |edit: &Edit| {
-            let near = |other: &Edit| {
-                edit.range.start <= other.range.end && other.range.start <= edit.range.end
-            };
-            all.iter().any(near)
+            let before = ends.range(..=edit.range.end).next_back();
+            before.is_some_and(|(_, end)| *end >= edit.range.start)
         };
         if edits.iter().any(touches) {
             continue;
         }
         mended += 1;
+        for edit in &edits {
+            let end = ends.entry(edit.range.start).or_default();
+            *end = edit.range.end.max(*end);
+        }
         all.extend(edits);
     }
     (apply(text, all), mended)

@@ -61,7 +61,7 @@ pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError
     };
     let lint = |job: &Job| lint_file(job, is_found(job), paths, settings);
     let linted: Vec<Option<Linted>> = jobs.par_iter().map(lint).collect();
-    settings.report.cancellation.check()?;
+    settings.source.cancellation.check()?;
     let parts = linted.iter().filter(|one| one.is_none()).count();
     let linted = jobs.into_iter().zip(linted).filter_map(|(job, one)| Some((job.source, one?)));
     let (files, linted): (Vec<PathBuf>, Vec<Linted>) = linted.unzip();
@@ -86,7 +86,7 @@ pub fn lint_with_text(
     let arguments = declared.to_vec();
     let job = Job { arguments, ..Job::new(path.to_owned(), String::new()) };
     let mut linted = lint_file(&job, Found::Named, &from, settings);
-    settings.report.cancellation.check()?;
+    settings.source.cancellation.check()?;
     let text = linted.as_mut().and_then(|linted| linted.text.take());
     let text = text.or_else(|| as_written(path, &settings.source.files));
     Ok((run_of(&paths, Vec::from_iter(linted), 0, settings), text))
@@ -139,7 +139,7 @@ fn lint_file(
                 text = Some(imported.original);
                 examined
             }
-            None => match read_source(path, &settings.source, &settings.report.cancellation) {
+            None => match read_source(path, &settings.source) {
                 Err(SourceError::NeedsArguments { needed, fault, .. }) => {
                     (lint_undeclared(path, &needed, &fault, settings), Vec::new())
                 }

@@ -151,17 +151,16 @@ pub fn undeclared(
     settings: &LintSettings,
 ) -> Result<Vec<Undeclared>, LintError> {
     let jobs = sources(paths, settings)?.jobs;
-    let cancellation = &settings.report.cancellation;
-    let of =
-        |job: &Job| match read_source(&job.source, &job.settings(&settings.source), cancellation) {
-            Err(SourceError::NeedsArguments { needed, .. }) if job.arguments.is_empty() => {
-                Some(Undeclared {
-                    needed: tried(&job.source, needed, settings),
-                    file: job.source.clone(),
-                })
-            }
-            _ => None,
-        };
+    let cancellation = &settings.source.cancellation;
+    let of = |job: &Job| match read_source(&job.source, &job.settings(&settings.source)) {
+        Err(SourceError::NeedsArguments { needed, .. }) if job.arguments.is_empty() => {
+            Some(Undeclared {
+                needed: tried(&job.source, needed, settings),
+                file: job.source.clone(),
+            })
+        }
+        _ => None,
+    };
     let found = jobs.par_iter().filter_map(of).collect();
     cancellation.check()?;
     Ok(found)
@@ -177,7 +176,7 @@ fn tried(
         let mut source = settings.source.clone();
         let words = values.iter().map(|(name, value)| format!("{name}:={value}"));
         source.xacro.arguments.extend(words);
-        let read = read_source(file, &source, &settings.report.cancellation);
+        let read = read_source(file, &source);
         // Without the program nothing is known of them.
         let is_unknown =
             matches!(&read, Err(SourceError::NeedsArguments { .. } | SourceError::NoXacro { .. }));

@@ -62,7 +62,7 @@ impl Options {
                 _ => value,
             }
         });
-        settings.report.cancellation = cancellation.clone();
+        settings.source.cancellation = cancellation.clone();
         settings
     }
 

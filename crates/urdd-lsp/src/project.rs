@@ -41,9 +41,7 @@ impl Project {
         let first =
             snapshot.path.clone().and_then(|path| robots_of(path, &robots).into_iter().next());
         settings.source.xacro.arguments = first.map(|robot| robot.arguments).unwrap_or_default();
-        let cancellation = std::mem::take(&mut settings.report.cancellation);
         settings.report = file.settings;
-        settings.report.cancellation = cancellation;
         // The user's own comes first.
         let baseline = snapshot.options.baseline.clone().or(file.baseline);
         match baseline.as_deref().map(Baseline::read).transpose() {

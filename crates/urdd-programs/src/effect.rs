@@ -107,8 +107,7 @@ impl Effects {
         if self.kept.len() >= KEPT && deed < Deed::Refuses {
             self.cut += 1;
             let unusual = Some(deed).filter(|_| !fault.is_usual());
-            self.worst_cut =
-                [self.worst_cut[0].max(Some(deed)), self.worst_cut[1].max(unusual)];
+            self.worst_cut = [self.worst_cut[0].max(Some(deed)), self.worst_cut[1].max(unusual)];
             return;
         }
         let makes = makes.map(|makes| short::name(makes).into_owned());
@@ -275,10 +274,35 @@ impl Deref for Part {
     }
 }
 
-/// What a material has itself. Its colour is read once, however many others are compared with it.
+/// A colour as it is written, read once, however many others are compared with it.
+#[derive(Clone)]
+pub struct Color {
+    pub text: String,
+    numbers: Option<Vec<f64>>,
+}
+
+impl Color {
+    pub fn of(rgba: &str) -> Self {
+        let numbers = pieces(rgba).map(|piece| whole(strtod(piece))).collect();
+        Color { text: rgba.to_owned(), numbers }
+    }
+
+    /// Whether nobody sees a difference: of half a step of 8 bits, as texts are rounded.
+    pub fn is_same(&self, other: &Color) -> bool {
+        const LEAST: f64 = 0.5 / 255.0;
+        match (&self.numbers, &other.numbers) {
+            (Some(one), Some(other)) => {
+                let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= LEAST;
+                one.len() == other.len() && one.iter().zip(other).all(is_near)
+            }
+            _ => self.text == other.text,
+        }
+    }
+}
+
+/// What a material has itself.
 pub struct Look {
-    rgba: String,
-    colors: Option<Vec<f64>>,
+    color: Color,
     texture: String,
 }
 
@@ -287,42 +311,19 @@ impl Look {
     pub fn of(material: Node<'_>) -> Option<Look> {
         let of = |element: &str, name: &str| material.child(element)?.value(name);
         let (rgba, texture) = (of("color", "rgba"), of("texture", "filename"));
-        let text = |value: Option<&str>| value.unwrap_or_default().to_owned();
-        let colors = colors(rgba.unwrap_or_default());
-        rgba.or(texture).map(|_| Look { rgba: text(rgba), colors, texture: text(texture) })
+        rgba.or(texture)?;
+        let color = Color::of(rgba.unwrap_or_default());
+        Some(Look { color, texture: texture.unwrap_or_default().to_owned() })
     }
 
     /// Says that a material is read as another one of its name, if that looks otherwise.
     pub fn compare(read: Option<&Look>, material: Node<'_>, part: &Part, effects: &mut Effects) {
         let (Some(read), Some(own)) = (read, Look::of(material)) else { return };
-        if read.texture != own.texture || !read.has_color_of(&own) {
+        if read.texture != own.texture || !read.color.is_same(&own.color) {
             let name = material.value("name").unwrap_or_default();
-            let words = if read.rgba.is_empty() { &read.texture } else { &read.rgba };
+            let rgba = &read.color.text;
+            let words = if rgba.is_empty() { &read.texture } else { rgba };
             effects.read_as(material, part, Fault::not_unique("material", name), &**words);
         }
     }
-
-    fn has_color_of(&self, other: &Look) -> bool {
-        match (&self.colors, &other.colors) {
-            (Some(one), Some(other)) => is_near(one, other),
-            _ => self.rgba == other.rgba,
-        }
-    }
-}
-
-fn colors(rgba: &str) -> Option<Vec<f64>> {
-    pieces(rgba).map(|piece| whole(strtod(piece))).collect()
-}
-
-/// Whether nobody sees a difference of two colours: of half a step of 8 bits, as texts are rounded.
-pub fn is_same(one: &str, other: &str) -> bool {
-    match (colors(one), colors(other)) {
-        (Some(one), Some(other)) => is_near(&one, &other),
-        _ => one == other,
-    }
-}
-
-fn is_near(one: &[f64], other: &[f64]) -> bool {
-    const LEAST: f64 = 0.5 / 255.0;
-    one.len() == other.len() && one.iter().zip(other).all(|(a, b)| (a - b).abs() <= LEAST)
 }

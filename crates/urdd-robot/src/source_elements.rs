@@ -10,7 +10,7 @@ use super::Robot;
 use super::error::RobotError;
 use super::robot::usable;
 use super::shapes::{LinkVisual, read};
-use urdd_directory::limits::{Account, Overdrawn};
+use urdd_directory::account::{Account, AccountError};
 use urdd_directory::listing::ReadError;
 use urdd_directory::path::beside;
 use urdd_document::mesh_files::{Absence, MeshFiles};
@@ -139,7 +139,7 @@ fn shape(
         None => return Ok(None),
         Some(Geometry::Mesh(_)) => {
             let Some((path, scene)) = mesh else { return Ok(None) };
-            let overdrawn = |error: Overdrawn| RobotError::Mesh {
+            let overdrawn = |error: AccountError| RobotError::Mesh {
                 path: path.to_owned(),
                 reason: error.to_string(),
             };

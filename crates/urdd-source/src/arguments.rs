@@ -6,8 +6,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
+use urdd_directory::account::{Account, AccountError};
 use urdd_directory::limits::MAX_MANIFEST_BYTES;
-use urdd_directory::limits::{Account, Overdrawn};
 use urdd_directory::listing::ReadError;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_xml::Node;
@@ -45,7 +45,7 @@ pub enum ArgumentsError {
     #[error("not well-formed XML: {0}")]
     Xml(String),
     #[error(transparent)]
-    Overdrawn(#[from] Overdrawn),
+    Account(#[from] AccountError),
 }
 
 /// The arguments of a file, in the order of their names: those that it and the files that it includes declare or use.
@@ -65,7 +65,7 @@ pub fn arguments(file: &Path, settings: &Settings) -> Result<Vec<XacroArgument>,
             // What is wrong with one that is included, xacro says.
             match texts.read(&found, false) {
                 Ok(more) => waiting.extend(more),
-                Err(ArgumentsError::Overdrawn(why)) => return Err(why.into()),
+                Err(ArgumentsError::Account(why)) => return Err(why.into()),
                 Err(_) => {}
             }
         }
@@ -371,7 +371,7 @@ fn with_arguments(
     text: &str,
     aliases: &BTreeMap<String, Option<String>>,
     account: &Account,
-) -> Result<Option<String>, Overdrawn> {
+) -> Result<Option<String>, AccountError> {
     let mut parts = text.split("${");
     let mut whole = parts.next().unwrap_or_default().to_owned();
     for part in parts {

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
+use urdd_directory::account::Account;
 use urdd_directory::file_type::FileType;
-use urdd_directory::limits::Account;
 use urdd_format::short::Short;
 
 use crate::beside::text;

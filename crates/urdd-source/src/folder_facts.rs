@@ -67,7 +67,9 @@ impl FolderFacts {
     pub(crate) fn spellings(&self, folder: &Path) -> Arc<Spellings> {
         let read = || {
             let mut all = Spellings::new();
-            for name in self.files.names(folder).into_iter().filter_map(|name| name.into_string().ok()) {
+            for name in
+                self.files.names(folder).into_iter().filter_map(|name| name.into_string().ok())
+            {
                 all.entry(name.to_lowercase()).or_default().push(name);
             }
             all.values_mut().for_each(|names| names.sort());

@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use thiserror::Error;
+use urdd_directory::account::{Account, AccountError};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::limits::{Account, Overdrawn};
 use urdd_directory::listing::ReadError;
 
 use crate::files::{Files, is_broad};
@@ -32,7 +32,7 @@ pub enum ImageFault {
     #[error(transparent)]
     Unread(#[from] ReadError),
     #[error(transparent)]
-    TooMuch(#[from] Overdrawn),
+    Account(#[from] AccountError),
 }
 
 /// The gate of one description.

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use urdd_directory::cancellation::Cancellation;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::path;
 use urdd_format::urdf::UrdfModule;
@@ -62,12 +61,8 @@ impl Source {
 ///
 /// # Errors
 /// If it cannot be read or is not a valid robot.
-pub fn load(
-    path: &Path,
-    settings: &Settings,
-    cancellation: &Cancellation,
-) -> Result<Source, SourceError> {
-    Ok(load_with(path, settings, cancellation, |_, _| ())?.0)
+pub fn load(path: &Path, settings: &Settings) -> Result<Source, SourceError> {
+    Ok(load_with(path, settings, |_, _| ())?.0)
 }
 
 /// As [`load`]; `also` reads the text that a URDD carries, too. It is given whether that is the file as it was found.
@@ -77,11 +72,10 @@ pub fn load(
 pub fn load_with<T>(
     path: &Path,
     settings: &Settings,
-    cancellation: &Cancellation,
     also: impl FnOnce(&Xml<'_>, bool) -> T,
 ) -> Result<(Source, T), SourceError> {
     let mut notes = Vec::new();
-    let read = read(path, settings, cancellation, &mut notes)?;
+    let read = read(path, settings, &mut notes)?;
     let said = loops::beside(path, settings)?;
     with_loops(read, said, settings, notes, also)
 }
@@ -135,12 +129,8 @@ impl SourceText {
 ///
 /// # Errors
 /// If it cannot be read or expanded.
-pub fn read_source(
-    path: &Path,
-    settings: &Settings,
-    cancellation: &Cancellation,
-) -> Result<SourceText, SourceError> {
-    let read = read(path, settings, cancellation, &mut Vec::new())?;
+pub fn read_source(path: &Path, settings: &Settings) -> Result<SourceText, SourceError> {
+    let read = read(path, settings, &mut Vec::new())?;
     let is_same = read.trail.is_some() || read.bytes == read.text.as_bytes();
     Ok(SourceText {
         original: (!is_same).then_some(Original { bytes: read.bytes, decoding: read.decoding }),
@@ -168,12 +158,7 @@ struct Read {
 }
 
 /// Decodes the bytes of a file, and expands them where they are macros.
-fn read(
-    path: &Path,
-    settings: &Settings,
-    cancellation: &Cancellation,
-    notes: &mut Vec<Note>,
-) -> Result<Read, SourceError> {
+fn read(path: &Path, settings: &Settings, notes: &mut Vec<Note>) -> Result<Read, SourceError> {
     let shown = path.display().to_string();
     let bytes = settings.files.read(path, MAX_SOURCE_BYTES);
     let bytes = bytes.map_err(|why| SourceError::unread(&shown, why))?;
@@ -187,7 +172,7 @@ fn read(
     let (text, trail) = match (is_expanded, &settings.files) {
         (true, Files::Disk) => {
             let (xacro, packages) = (&settings.xacro, &settings.packages);
-            let expanded = xacro::expand(path, &shown, xacro, packages, cancellation);
+            let expanded = xacro::expand(path, &shown, xacro, packages, &settings.cancellation);
             let (text, trail) = expanded.map_err(|error| explained(error, path, settings))?;
             (text, Some(trail))
         }

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use urdd_directory::account::AccountError;
-use urdd_directory::cancellation::Cancellation;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::{Geometry, UrdfModule};
 use urdd_geometry::read::Scene;
@@ -105,12 +104,8 @@ impl SourceMeshes {
     ///
     /// # Errors
     /// If it cannot be read or is not a valid robot. A missing mesh is not an error.
-    pub fn open(
-        path: &Path,
-        settings: &Settings,
-        cancellation: &Cancellation,
-    ) -> Result<SourceMeshes, SourceError> {
-        SourceMeshes::of(load(path, settings, cancellation)?, settings, None)
+    pub fn open(path: &Path, settings: &Settings) -> Result<SourceMeshes, SourceError> {
+        SourceMeshes::of(load(path, settings)?, settings, None)
     }
 
     /// Finds the mesh files of a URDF. A missing mesh is not an error. `imported` is what its import writes beside it, if it has one.

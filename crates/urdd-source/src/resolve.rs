@@ -232,7 +232,8 @@ impl Search<'_> {
             folders.push(folder.to_owned());
         }
         let around = self.roots.around(urdf_folder);
-        if let Some(folder) = around.package(package).map(|one| &one.folder).filter(|one| !folders.contains(one))
+        if let Some(folder) =
+            around.package(package).map(|one| &one.folder).filter(|one| !folders.contains(one))
         {
             if let Some(found) = self.in_folder(folder, rest, package) {
                 return Some(found);
@@ -258,8 +259,7 @@ impl Search<'_> {
             ),
             false => {
                 let mut all = folders.iter();
-                let why =
-                    all.find_map(|one| self.roots.facts().installed(one).is_not_known(one));
+                let why = all.find_map(|one| self.roots.facts().installed(one).is_not_known(one));
                 let by_a_build = why.map_or_else(String::new, |why| {
                     format!("{why}: build the package and source its install/setup.bash; or, ")
                 });

@@ -49,7 +49,7 @@ impl Job {
     pub fn settings(&self, all: &Settings) -> Settings {
         let mut settings = all.with_declared(&self.arguments);
         settings.facts.clone_from(&self.facts);
-        settings.account = Some(Account::default());
+        settings.account = Some(Account::new(&all.cancellation));
         let packages = self.packages.iter().map(|(name, folder)| (name.clone(), folder.clone()));
         settings.packages.know(packages);
         settings
@@ -199,7 +199,7 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
         search(path, 0, &facts, &mut found)?;
         found.urdfs.extend(files_below(path, &settings.robots));
         if found.urdfs.is_empty() {
-            let others = others(found.others);
+            let others = others(found.others, &settings.run_account());
             if others.is_empty() {
                 return Err(match (found.has_urdd, found.ignored) {
                     (true, _) => BatchError::Urdd { path: shown },
@@ -243,7 +243,8 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
         let is_own = named_paths.contains(&source) && !settings.xacro.arguments.is_empty();
         match declared.get(&resolved(&source)).filter(|_| !is_own) {
             Some(all) => {
-                let with_path = |one: &&Declared| Declared { source: source.clone(), ..(*one).clone() };
+                let with_path =
+                    |one: &&Declared| Declared { source: source.clone(), ..(*one).clone() };
                 all.iter().map(with_path).collect()
             }
             None => vec![source.into()],
@@ -309,11 +310,11 @@ struct Found {
 }
 
 /// The descriptions among files whose names do not say it, without those that are parts of others.
-fn others(files: Vec<PathBuf>) -> Vec<PathBuf> {
+fn others(files: Vec<PathBuf>, account: &Account) -> Vec<PathBuf> {
     let is = |file: PathBuf| Some((by_content(&file, &Files::Disk)?, file));
     let found: Vec<(RobotFile, PathBuf)> = files.into_iter().filter_map(is).collect();
     let all = found.iter().map(|(is, file)| (file.as_path(), *is));
-    let parts = parts_of_others(all, &Files::Disk);
+    let parts = parts_of_others(all, &Files::Disk, account);
     let mut files: Vec<PathBuf> = found.into_iter().map(|(_, file)| file).collect();
     files.retain(|file| !file.canonicalize().is_ok_and(|file| parts.contains(&file)));
     files

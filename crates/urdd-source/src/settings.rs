@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use urdd_directory::account::Account;
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::range::{OutOfRange, Range};
 
 use crate::files::Files;
@@ -32,12 +33,14 @@ pub struct Settings {
     pub account: Option<Account>,
     /// What the robots of one run know of the folders around them, each read once. By default each robot reads its own.
     pub facts: Option<FolderFacts>,
+    /// Cancellation: each account of a run is asked for it.
+    pub cancellation: Cancellation,
 }
 
 impl Settings {
     /// The account of the run; a new one, if each part of it has its own.
     pub fn run_account(&self) -> Account {
-        self.account.clone().unwrap_or_default()
+        self.account.clone().unwrap_or_else(|| Account::new(&self.cancellation))
     }
 
     /// The facts of the run, if they are of these files; else of folders that nobody has read.

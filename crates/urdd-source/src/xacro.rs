@@ -219,13 +219,13 @@ const MAX_LISTED: usize = 2000;
 
 /// The files that xacro reads for a robot: what `xacro --deps` lists. If it fails, as for a broken file, or names cannot
 /// be told apart, the xacro and YAML files of the robot's package. None for a URDF without macros, or in memory.
-pub fn included(file: &Path, settings: &Settings, cancellation: &Cancellation) -> Vec<PathBuf> {
+pub fn included(file: &Path, settings: &Settings) -> Vec<PathBuf> {
     if !matches!(settings.files, Files::Disk) {
         return Vec::new();
     }
     let is_xacro = FileType::Xacro.is_of(file);
     match is_xacro || settings.xacro.expand_urdf && has_macros(file) {
-        true => listed(file, settings, cancellation).unwrap_or_else(|| beside(file)),
+        true => listed(file, settings).unwrap_or_else(|| beside(file)),
         false => Vec::new(),
     }
 }
@@ -241,7 +241,8 @@ fn has_macros(file: &Path) -> bool {
     text.is_ok_and(|text| String::from_utf8_lossy(&text).contains("<xacro:"))
 }
 
-fn listed(file: &Path, settings: &Settings, cancellation: &Cancellation) -> Option<Vec<PathBuf>> {
+fn listed(file: &Path, settings: &Settings) -> Option<Vec<PathBuf>> {
+    let cancellation = &settings.cancellation;
     let given = PackageIndex::new(&settings.packages, file, cancellation).ok()?;
     let text = run(&["--deps"], file, "", &settings.xacro, &given, None, cancellation).ok()?;
     let files: Vec<PathBuf> = text.split_whitespace().map(PathBuf::from).collect();

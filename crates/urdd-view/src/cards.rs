@@ -96,11 +96,9 @@ impl<'scope, 'a: 'scope> Cards<'scope, 'a> {
         let source = shown.source.clone()?;
         let revision = revision::of_file(&source.file);
         let cancellation = Cancellation::default();
-        let settings = Settings {
-            selection: picture::modules(),
-            cancellation: cancellation.clone(),
-            ..source.settings(self.settings)
-        };
+        let mut settings =
+            Settings { selection: picture::modules(), ..source.settings(self.settings) };
+        settings.source.cancellation = cancellation.clone();
         let pool = self.pool.clone();
         let thread = scope.spawn(move || match pool {
             Some(pool) => pool.install(|| drawn(&source, &settings)),
@@ -133,8 +131,9 @@ fn drawn(Source { file, .. }: &Source, settings: &Settings) -> Result<Picture, G
     caught(file, || {
         let (_, files) = generate_in_memory(Path::new(file), settings, &())?;
         let root = Memory::new("robot", files).ok().map(Root::of);
-        let picture = root.and_then(|root| picture::card(&Robot::of(root), &settings.cancellation));
-        settings.cancellation.check()?;
+        let picture =
+            root.and_then(|root| picture::card(&Robot::of(root), &settings.source.cancellation));
+        settings.source.cancellation.check()?;
         Ok(picture.map(Arc::from))
     })
 }

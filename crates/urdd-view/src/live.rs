@@ -78,7 +78,7 @@ impl Live<'_> {
         thread::scope(|scope| {
             let mut running: Option<Run<'_>> = None;
             let mut cards = Cards::new(self.settings);
-            while !self.settings.cancellation.is_cancelled() {
+            while !self.settings.source.cancellation.is_cancelled() {
                 for shown in collection.robots() {
                     if !is_watched(&shown) {
                         continue;
@@ -115,7 +115,7 @@ impl Live<'_> {
     pub fn generate(&self, shown: &Arc<Shown>) -> bool {
         let Some(source) = shown.source.clone() else { return true };
         let robot = self.followed(Arc::clone(shown), source);
-        let outcome = self.whole(&robot, self.settings.cancellation.clone());
+        let outcome = self.whole(&robot, self.settings.source.cancellation.clone());
         let is_made = outcome.is_ok();
         robot.end(outcome);
         is_made
@@ -159,7 +159,7 @@ impl Live<'_> {
             None => make(),
         };
         let mut files = files.into_inner();
-        for file in included(&robot.job.source, &settings.source, &settings.cancellation) {
+        for file in included(&robot.job.source, &settings.source) {
             let word = revision::of_file(&file);
             files.entry(file).or_insert(word);
         }
@@ -201,11 +201,11 @@ impl Live<'_> {
         cancellation: Cancellation,
     ) -> Result<Generated, GenerateError> {
         let target = robot.whole_path();
-        let settings = Settings {
+        let mut settings = Settings {
             donors: donors([&target, &robot.picture_path()]),
-            cancellation: cancellation.clone(),
             ..robot.source.settings(self.settings)
         };
+        settings.source.cancellation = cancellation.clone();
         let progress =
             Told { terminal: self.observer.begin(&robot.job), shown: &robot.shown, cancellation };
         let outcome = caught(&robot.job.source, || {

@@ -99,7 +99,7 @@ fn report_on_source(collection: &Collection, source: &Source) -> Result<String, 
         None
     });
     let settings = LintSettings {
-        report: Settings { cancellation: all.cancellation.clone(), ..project.report },
+        report: project.report,
         source: source.with_packages(&all.source),
         baseline: baseline.map(Arc::new),
         ..LintSettings::default()

@@ -73,7 +73,7 @@ pub fn check_parts(
     let mut distrusted = BTreeSet::new();
     let mut known: BTreeMap<PathBuf, Vec<String>> = BTreeMap::new();
     for part in &recipe.parts {
-        settings.cancellation.check()?;
+        settings.source.cancellation.check()?;
         let source = recipe.source(part, settings)?;
         if source.kind != SourceKind::Urdd {
             continue;
@@ -126,7 +126,7 @@ pub fn combine(
     for folder in [&folder, &store] {
         std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))?;
     }
-    let mut files = Meshes::new(store, &settings.cancellation);
+    let mut files = Meshes::new(store, &settings.source.cancellation);
     let mut placed = Vec::new();
     for member in &parts {
         placed.push(files.add(member.part, &member.loaded, &used_meshes(member))?);
@@ -136,7 +136,7 @@ pub fn combine(
     let quaternions = has_quaternions(compose::version(&parts).as_deref());
     let (mut rewritten, mut length) = (Vec::new(), 0);
     for ((member, placed), repeated) in parts.iter().zip(placed).zip(&repeated) {
-        settings.cancellation.check()?;
+        settings.source.cancellation.check()?;
         let carried = placed.into_iter();
         let carried = carried.map(|(name, place)| (name, part::carried(&place, &shared)));
         let text = Rewrite {
@@ -155,7 +155,7 @@ pub fn combine(
         rewritten.push(text);
     }
     let urdf = compose::urdf(recipe, &parts, &holders, &rewritten)?;
-    settings.cancellation.check()?;
+    settings.source.cancellation.check()?;
     let robot = read_urdf(urdf.as_bytes(), &recipe.name.text)
         .map_err(|error| CombineError::Generate { id: None, error: error.into() })?;
     let composition = compose::composition(recipe, &parts, &holders, &robot.robot);
@@ -193,7 +193,7 @@ fn load_parts<'a>(
     let mut known: BTreeMap<PathBuf, Rc<part::Loaded>> = BTreeMap::new();
     let (mut links, mut length, mut composition_length) = (0, 0, 0);
     for (idx, part) in recipe.parts.iter().enumerate() {
-        settings.cancellation.check()?;
+        settings.source.cancellation.check()?;
         let source = recipe.source(part, settings)?;
         let loaded = match known.get(&source.path) {
             Some(loaded) => loaded.clone(),

@@ -73,7 +73,7 @@ pub(crate) fn hulls(
         context.finished(ModuleKind::ConvexHullMeshes, links[at]);
         hull.map(ConvexHull::into_mesh)
     };
-    let built = for_each_content(&meshes, &context.settings.cancellation, hull)?;
+    let built = for_each_content(&meshes, &context.settings.source.cancellation, hull)?;
     let built = built.into_iter().map(Option::into_iter);
     let links = solids(plain, taken, built.map(Iterator::collect));
     let (names, files) = write(context, ModuleKind::ConvexHullMeshes, &links)?;
@@ -107,7 +107,7 @@ pub(crate) fn pieces(
         context.finished(ModuleKind::ConvexDecompositionMeshes, links[at]);
         pieces
     };
-    let built = for_each_content(&meshes, &context.settings.cancellation, decompose)?;
+    let built = for_each_content(&meshes, &context.settings.source.cancellation, decompose)?;
     let of_taken = plain.iter().zip(&taken).filter(|(_, taken)| taken.is_some());
     let of_taken = of_taken.filter_map(|(plain, _)| plain.as_ref());
     let of_taken = of_taken.map(|plain| settings.surface_tolerance_of(&plain.mesh));

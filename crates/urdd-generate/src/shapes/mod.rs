@@ -89,7 +89,8 @@ pub(crate) fn approximations(
         context.finished(ModuleKind::LinkShapesApproximations, links[at]);
         shape
     };
-    let mut built = for_each_content(&meshes, &context.settings.cancellation, shape)?.into_iter();
+    let mut built =
+        for_each_content(&meshes, &context.settings.source.cancellation, shape)?.into_iter();
     let found = known.into_iter().map(|known| match known {
         Some(known) => Ok(known),
         None => built.next().unwrap_or(Err(HullError::Empty)),

@@ -211,7 +211,7 @@ pub(crate) fn notes<'a>(
             (touches.into_iter().filter(|touches| *touches).count(), links, place)
         })
         .collect();
-    context.settings.cancellation.check()?;
+    context.settings.source.cancellation.check()?;
     // Links that touch in all samples are as those that always do.
     counted.retain(|(touching, ..)| *touching < motion.num_samples());
     // The most collisions first.

@@ -33,7 +33,8 @@ pub(crate) fn statistics(
     solids: &ConvexMeshes,
     shapes: &Shapes,
 ) -> Shared<Statistics> {
-    let Settings { num_samples, cancellation, .. } = context.settings;
+    let Settings { num_samples, source, .. } = context.settings;
+    let cancellation = &source.cancellation;
     let mut found = over(&sampled_motion(context)?, shapes, cancellation).into_iter();
     cancellation.check()?;
     let matrices = |pairs: PairStatistics| DistanceStatistics {

@@ -19,6 +19,12 @@ impl Progress for StopsAt {
     }
 }
 
+fn settings(cancellation: &Cancellation) -> Settings {
+    let mut settings = Settings { num_samples: 10, ..Settings::default() };
+    settings.source.cancellation = cancellation.clone();
+    settings
+}
+
 #[test]
 fn generate_leaves_what_was_there() {
     let (_, urdf) = our_robots().swap_remove(8);
@@ -27,8 +33,7 @@ fn generate_leaves_what_was_there() {
         let folder = testkit::temporary::folder();
         let target = folder.path().join("robot");
         let cancellation = Cancellation::default();
-        let settings =
-            Settings { cancellation: cancellation.clone(), num_samples: 10, ..Settings::default() };
+        let settings = settings(&cancellation);
         let progress = StopsAt(stop, cancellation);
         let stopped = generate(&urdf, &target, &settings, &progress).unwrap_err();
         assert!(matches!(stopped, GenerateError::Cancelled), "{stop}: {stopped}");
@@ -39,8 +44,7 @@ fn generate_leaves_what_was_there() {
     let (folder, target) = made(&urdf);
     let before = below(folder.path());
     let cancellation = Cancellation::default();
-    let settings =
-        Settings { cancellation: cancellation.clone(), num_samples: 10, ..Settings::default() };
+    let settings = settings(&cancellation);
     let progress = StopsAt(12, cancellation);
     let stopped = generate(&urdf, &target, &settings, &progress).unwrap_err();
     assert!(matches!(stopped, GenerateError::Cancelled), "{stopped}");

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use urdd_directory::limits::Charged;
+use urdd_directory::account::Charged;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::path::file_name;
 use urdd_geometry::Mesh;

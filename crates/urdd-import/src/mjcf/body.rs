@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Translation3, Vector3};
-use urdd_directory::limits::{Account, Charged};
+use urdd_directory::account::{Account, Charged};
 
 use super::compiler::{Compilers, euler, pose};
 use super::geom::{Geom, between};
@@ -313,6 +313,10 @@ impl<'b> Lookup<'b> {
         let each = REPLICA + names.iter().flatten().map(|name| name.len()).sum::<usize>();
         self.account.charge(suffixes.len().saturating_mul(each)).at(element.place)?;
         Ok(suffixes)
+    }
+
+    pub fn account(&self) -> &Account {
+        self.account
     }
 
     pub fn charge(&self, element: &Element, work: usize) -> Fallible<()> {

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use urdd_directory::limits::{Account, Charged};
+use urdd_directory::account::{Account, Charged};
 
 use super::body::{Lookup, Made, RawBody, WORLD};
 use super::geom::{Geom, GeomKind};

@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use std::mem::replace;
 use std::path::{Path, PathBuf};
 
-use urdd_directory::limits::Account;
+use urdd_directory::account::Account;
 use urdd_source::FoundMesh;
 use urdd_source::gate::Gate;
 use urdd_xml::{MAX_LEVELS, Mended, Node, parse_leniently};

@@ -1,10 +1,11 @@
 //! What actuators give to their joints: the greatest force and speed, gains, damping and armature; and the mass that an
 //! actuator feels, which MuJoCo makes ratios of damping with.
 
-use std::cell::LazyCell;
+use std::cell::OnceCell;
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Matrix3, Matrix6, Vector3, Vector6};
+use urdd_directory::account::{Account, AccountError, Charged};
 
 use super::body::{Lookup, Made};
 use super::compiler::{Compiler, Compilers};
@@ -13,7 +14,7 @@ use super::reading::{Defaults, Element, MAIN};
 use crate::features::{self, Tally};
 use crate::mass::turned;
 use crate::model::{self, Body, Inertial, Joint, JointKind};
-use crate::place::Fallible;
+use crate::place::{Fallible, Place, Placing};
 
 /// What the actuators of one joint give together.
 #[derive(Debug, Clone)]
@@ -72,16 +73,15 @@ pub fn drive<'d>(
             driven.push(Driven { element, suffix, actuator, compiler, joint: at });
         }
     }
-    let charge = |element: &Element, cost: usize| lookup.charge(element, cost);
-    give_all(&driven, &mut made.bodies, made.is_floating, &charge, tally)
+    give_all(&driven, &mut made.bodies, made.is_floating, lookup.account(), tally)
 }
 
-/// Gives joints what these actuators say. `charge` pays for work that one makes.
+/// Gives joints what these actuators say.
 pub fn give_all(
     driven: &[Driven<'_>],
-    bodies: &mut [Body],
+    bodies: &mut Charged<Body>,
     is_floating: bool,
-    charge: &dyn Fn(&Element, usize) -> Fallible<()>,
+    account: &Account,
     tally: &mut Tally,
 ) -> Fallible<()> {
     for Driven { actuator, joint: (body, joint), .. } in driven {
@@ -93,7 +93,7 @@ pub fn give_all(
         }
     }
     let at_rest = &*bodies;
-    let moved = LazyCell::new(|| Moved::of(at_rest, is_floating));
+    let moved = OnceCell::new();
     let mut given: HashMap<(usize, usize), JointDrive> = HashMap::new();
     for Driven { element, suffix, actuator, compiler, joint: at } in driven {
         say(actuator, tally);
@@ -103,9 +103,13 @@ pub fn give_all(
         let is_of_speed = actuator.is_of_speed();
         let velocity = told.filter(|_| is_of_speed).map(greatest).filter(|most| *most > 0.0);
         if actuator.law == Law::Servo && actuator.is_ratio() {
-            charge(element, BODY * at_rest.len())?;
+            account.charge(BODY * at_rest.len()).at(element.place)?;
+            if moved.get().is_none() {
+                let made = Moved::of(at_rest, is_floating, account).at(element.place)?;
+                let _ = moved.set(made);
+            }
         }
-        let gains = gains(actuator, || moved.by(*at));
+        let gains = gains(actuator, || moved.get().map_or(0.0, |moved: &Moved| moved.by(*at)));
         let Some(entry) = given.get_mut(at) else {
             let name = element.text("name").map(|name| format!("{name}{suffix}"));
             let name = name.filter(|name| *name != of.name);
@@ -129,7 +133,10 @@ pub fn give_all(
     }
     let follows =
         |joint: &&Joint| joint.mimic.is_some() && (joint.kp.is_some() || joint.armature.is_some());
-    let following = bodies.iter().flat_map(|body| &body.joints).filter(follows).count();
+    let mut following = 0;
+    for body in bodies.walk(account).at(Place::default())? {
+        following += body.joints.walk(account).at(body.place)?.filter(follows).count();
+    }
     tally.add(features::MORE_GAINS, following);
     Ok(())
 }
@@ -202,10 +209,16 @@ struct Freedom {
 }
 
 impl Moved {
-    pub fn of(bodies: &[Body], is_floating: bool) -> Self {
+    pub fn of(
+        bodies: &Charged<Body>,
+        is_floating: bool,
+        account: &Account,
+    ) -> Result<Self, AccountError> {
         let mut moved = Moved { freedoms: Vec::new(), of: HashMap::new() };
         let mut known: Vec<(Isometry3<f64>, Option<usize>)> = Vec::new();
-        for (index, Body { parent, pose, joints, inertial, .. }) in bodies.iter().enumerate() {
+        for (index, Body { parent, pose, joints, inertial, .. }) in
+            bodies.walk(account)?.enumerate()
+        {
             let above = parent.and_then(|parent| known.get(parent).copied());
             let (above, mut last) = above.unwrap_or_default();
             let pose = above * pose;
@@ -213,7 +226,7 @@ impl Moved {
                 let all = Matrix6::<f64>::identity();
                 last = moved.push(last, all.column_iter().map(|axis| axis.into_owned()), 0.0);
             }
-            for (number, joint) in joints.iter().enumerate() {
+            for (number, joint) in joints.walk(account)?.enumerate() {
                 let armature = joint.armature.unwrap_or(0.0);
                 last = moved.push(last, axes(joint, &pose).into_iter(), armature);
                 moved.of.extend(last.map(|last| ((index, number), last)));
@@ -224,7 +237,7 @@ impl Moved {
             known.push((pose, last));
         }
         moved.pass_on();
-        moved
+        Ok(moved)
     }
 
     /// Adds freedoms behind one, and returns the last.

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
-use urdd_directory::limits::{Account, Charged};
+use urdd_directory::account::{Account, AccountError, Charged};
 use urdd_format::loops::LoopKind;
 use urdd_format::short::Short;
 
@@ -11,7 +11,7 @@ use super::body::{Lookup, Made, RawBody, WORLD};
 use super::reading::{Attributes, Defaults, Element, MAIN, View};
 use crate::features::{self, Tally};
 use crate::model::{Closing, Coupled, End, JointKind, Mimic};
-use crate::place::{Fallible, Placing};
+use crate::place::{Fallible, Place, Placing};
 
 /// Joints that follow one another; a longer chain is left out.
 const LONGEST: usize = 1000;
@@ -29,7 +29,7 @@ pub fn equalities<'d>(
     account: &Account,
 ) -> Fallible<()> {
     let mut closings = Charged::default();
-    let placed = Placed::of(made);
+    let placed = Placed::of(made, account).at(Place::default())?;
     let is_tie = |of: &&Element| matches!(of.tag.as_str(), "connect" | "weld" | "distance");
     for element in root.sections("equality").filter(is_tie) {
         let view = View::new(element, defaults, MAIN)?;
@@ -224,15 +224,15 @@ pub struct Placed<'m> {
 }
 
 impl<'m> Placed<'m> {
-    pub fn of(made: &'m Made) -> Self {
+    pub fn of(made: &'m Made, account: &Account) -> Result<Self, AccountError> {
         let mut poses: Vec<Isometry3<f64>> = Vec::with_capacity(made.bodies.len());
-        for body in &made.bodies {
+        for body in made.bodies.walk(account)? {
             let parent = body.parent.and_then(|parent| poses.get(parent));
             poses.push(parent.map_or_else(Isometry3::identity, |parent| parent * body.pose));
         }
-        let sites = made.bodies.iter().enumerate().filter(|(_, body)| body.is_frame);
+        let sites = made.bodies.walk(account)?.enumerate().filter(|(_, body)| body.is_frame);
         let sites = sites.map(|(index, body)| (body.name.as_str(), index)).collect();
-        Placed { poses, sites }
+        Ok(Placed { poses, sites })
     }
 
     /// The loop of a `connect` or `weld` between two bodies, by raw index. `None` if one is not of the robot, or it is of

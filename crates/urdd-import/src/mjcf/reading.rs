@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use urdd_directory::limits::Account;
+use urdd_directory::account::Account;
 use urdd_format::short::Short;
 
 use crate::fault::{ImportFault, MjcfFault};

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Quaternion};
-use urdd_directory::limits::{Account, Charged};
+use urdd_directory::account::{Account, Charged};
 use urdd_kinematics::rotation::to_rotation_vector;
 
 use super::assets::Assets;

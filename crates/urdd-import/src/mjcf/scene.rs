@@ -277,7 +277,7 @@ fn bounds(
             let Some(mesh) = geom.mesh else { return Ok(None) };
             return match meshes.placed(mesh, geom.place, assets) {
                 Ok(mesh) => Ok(Some(Bounds::of(mesh.vertices.into_iter().map(moved)))),
-                Err(why) if matches!(why.fault, ImportFault::TooMuch(_)) => Err(why),
+                Err(why) if matches!(why.fault, ImportFault::Account(_)) => Err(why),
                 Err(_) => Ok(None),
             };
         }

@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use nalgebra::Vector3;
-use urdd_directory::limits::Charged;
+use urdd_directory::account::Charged;
 use urdd_directory::path::file_name;
 use urdd_source::gate::Gate;
 use urdd_source::{FoundMesh, Inspected};

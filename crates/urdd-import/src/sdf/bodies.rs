@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use nalgebra::Isometry3;
-use urdd_directory::limits::{Account, Charged};
+use urdd_directory::account::{Account, Charged};
 
 use super::moving::{Outside, closing, gearbox, moving, needs_links, say_turned};
 use super::scene::{Frames, Placeable, Scene, SdfJointKind, WORLD, snapped};
@@ -76,7 +76,9 @@ pub fn bodies(
     let mut couplings = Charged::default();
     for outside in gearboxes {
         let place = scene.nodes[scene.joints[outside.joint].node].place;
-        if let Some(coupled) = gearbox(&scene, frames, outside, &at, (&made, &poses), tally)? {
+        if let Some(coupled) =
+            gearbox(&scene, frames, outside, &at, (&made, &poses), account, tally)?
+        {
             couplings.push(coupled, account).at(place)?;
         }
     }
@@ -90,7 +92,8 @@ pub fn bodies(
         }
         made[index].inertial = Some(scene.links[link].inertial);
     }
-    let mut taken: HashSet<String> = made.iter().map(|body| body.name.clone()).collect();
+    let bodies = made.walk(account).at(Place::default())?;
+    let mut taken: HashSet<String> = bodies.map(|body| body.name.clone()).collect();
     for frame in &scene.frames {
         let node = &scene.nodes[*frame];
         let parent = frames.links[*frame].and_then(|link| at[link]).unwrap_or_default();

@@ -195,7 +195,7 @@ fn peek(reader: &mut SdfReader, tag: Tag, uri: &str) -> Fallible<Option<Inside>>
     reader.files.truncate(files);
     match read {
         Ok(inside) => Ok(Some(inside)),
-        Err(why) if matches!(why.fault, ImportFault::TooMuch(_)) => Err(why),
+        Err(why) if matches!(why.fault, ImportFault::Account(_)) => Err(why),
         Err(_) => Ok(None),
     }
 }

@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use urdd_directory::account::{Account, AccountError, Charged};
 use urdd_format::loops::LoopKind;
 use urdd_format::short::Short;
 use urdd_kinematics::rotation::from_z;
@@ -17,7 +18,7 @@ use crate::fault::SdfFault;
 use crate::features::{self, Tally};
 use crate::graph::{limits, say_closed};
 use crate::model::{Body, Closing, Coupled, End, Joint as Moving, JointKind, Mimic};
-use crate::place::{Fallible, at};
+use crate::place::{Fallible, Placing, at};
 
 /// A joint and its links; the number of links means the world.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -151,7 +152,7 @@ fn mimic(scene: &Scene, joint: usize, axis: &Axis, tally: &mut Tally) -> Fallibl
 }
 
 /// Whether a body needs links between its joints.
-pub fn needs_links(moves: &[Moving]) -> bool {
+pub fn needs_links(moves: &Charged<Moving>) -> bool {
     moves.len() > 1 || moves.last().is_some_and(|last| last.frame != Isometry3::identity())
 }
 
@@ -237,7 +238,8 @@ pub fn gearbox(
     frames: &Frames,
     outside: Outside,
     at: &[Option<usize>],
-    (bodies, poses): (&[Body], &[Isometry3<f64>]),
+    (bodies, poses): (&Charged<Body>, &[Isometry3<f64>]),
+    account: &Account,
     tally: &mut Tally,
 ) -> Fallible<Option<Coupled>> {
     let joint = &scene.joints[outside.joint];
@@ -270,18 +272,22 @@ pub fn gearbox(
         let named = Short::of(named);
         return lost(&format!("there is no link `{named}`, its reference body, in the robot"));
     }
+    let ends = (|| {
+        Some((reference?, body(outside.parent)?, body(outside.child)?, axes.first()?, axes.last()?))
+    })();
     let sum = || {
-        let (reference, parent, child) = (reference?, body(outside.parent)?, body(outside.child)?);
+        let Some((reference, parent, child, first, second)) = ends else { return Ok(None) };
         let mut terms = BTreeMap::new();
-        let (first, second) = (axes.first()?, axes.last()?);
-        turned(bodies, poses, [reference, parent], first, ratio, &mut terms)?;
-        turned(bodies, poses, [reference, child], second, 1.0, &mut terms)?;
+        let all = (bodies, poses, account);
+        let is_known = turned(all, [reference, parent], first, ratio, &mut terms)?
+            && turned(all, [reference, child], second, 1.0, &mut terms)?;
         terms.retain(|_, factor| *factor != 0.0);
         let terms: Vec<_> =
             terms.into_iter().map(|(name, of)| (name.to_owned(), vec![of])).collect();
-        (!terms.is_empty()).then_some(terms)
+        Ok((is_known && !terms.is_empty()).then_some(terms))
     };
-    let Some(terms) = sum() else {
+    let terms: Result<_, AccountError> = sum();
+    let Some(terms) = terms.at(node.place)? else {
         return lost(
             "between its links and the reference body there is nothing that turns about its axes alone",
         );
@@ -304,46 +310,45 @@ pub fn gearbox(
     Ok(Some(Coupled { name: Some(node.name.clone()), constant: 0.0, terms }))
 }
 
-/// Adds the angle by which a body has turned about an axis, seen from another, times a factor. `None` if something between
+/// Adds the angle by which a body has turned about an axis, seen from another, times a factor. `false` if something between
 /// the two turns about another axis.
 fn turned<'b>(
-    bodies: &'b [Body],
-    poses: &[Isometry3<f64>],
+    (bodies, poses, account): (&'b Charged<Body>, &[Isometry3<f64>], &Account),
     [from, to]: [usize; 2],
     axis: &Vector3<f64>,
     factor: f64,
     terms: &mut BTreeMap<&'b str, f64>,
-) -> Option<()> {
-    let axis = axis.try_normalize(0.0)?;
+) -> Result<bool, AccountError> {
+    let Some(axis) = axis.try_normalize(0.0) else { return Ok(false) };
     let (mut from, mut to) = (from, to);
     let mut steps = 0;
     // A parent is before its children.
     while from != to {
         steps += 1;
         if steps > LONGEST {
-            return None;
+            return Ok(false);
         }
         let (body, sign) = if to > from { (to, factor) } else { (from, -factor) };
-        for joint in &*bodies[body].joints {
+        for joint in bodies[body].joints.walk(account)? {
             let own = poses[body].rotation * joint.frame.rotation * joint.axis;
             match joint.kind {
                 JointKind::Slide => {}
-                JointKind::Ball | JointKind::Planar | JointKind::Floating => return None,
+                JointKind::Ball | JointKind::Planar | JointKind::Floating => return Ok(false),
                 JointKind::Hinge => {
-                    let along = own.try_normalize(0.0)?.dot(&axis);
-                    if along.abs() < 1.0 - PARALLEL {
-                        return None;
-                    }
+                    let along = own.try_normalize(0.0).map(|own| own.dot(&axis));
+                    let Some(along) = along.filter(|along| along.abs() >= 1.0 - PARALLEL) else {
+                        return Ok(false);
+                    };
                     *terms.entry(joint.name.as_str()).or_default() += sign * along.signum();
                 }
             }
         }
-        let parent = bodies[body].parent?;
+        let Some(parent) = bodies[body].parent else { return Ok(false) };
         if to > from {
             to = parent
         } else {
             from = parent
         };
     }
-    Some(())
+    Ok(true)
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use nalgebra::Isometry3;
-use urdd_directory::limits::Charged;
+use urdd_directory::account::Charged;
 use urdd_kinematics::rotation::to_rpy;
 use urdd_source::FoundMesh;
 use urdd_source::gate::Gate;

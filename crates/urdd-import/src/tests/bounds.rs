@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-use urdd_directory::limits::Overdrawn;
+use urdd_directory::account::Overdrawn;
 use urdd_source::Files;
 use urdd_source::SourceError;
 

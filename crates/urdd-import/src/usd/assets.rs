@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
-use urdd_directory::limits::Charged;
+use urdd_directory::account::Charged;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::path::file_name;
 use urdd_source::gate::Gate;

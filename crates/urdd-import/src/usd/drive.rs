@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use urdd_directory::limits::Account;
+use urdd_directory::account::{Account, Charged};
 use urdd_usd::{Prim, Value};
 
 use super::joint::Motion;
@@ -91,7 +91,7 @@ const RANGES: [(&str, &str); 2] = [("forcerange", "forceRange"), ("ctrlrange", "
 pub fn give(
     scene: &Scene<'_>,
     of_joint: &HashMap<usize, (usize, usize)>,
-    bodies: &mut [Body],
+    bodies: &mut Charged<Body>,
     is_floating: bool,
     account: &Account,
     tally: &mut Tally,
@@ -141,8 +141,7 @@ pub fn give(
         of.actuator.force = of.effort.map(|most| [-most, most]);
         driven.push(Driven { element, suffix: "", actuator, compiler: &compiler, joint: *joint });
     }
-    let charge = |element: &Element, cost: usize| account.charge(cost).at(element.place);
-    give_all(&driven, bodies, is_floating, &charge, tally)
+    give_all(&driven, bodies, is_floating, account, tally)
 }
 
 type Attributes = Vec<(String, String)>;

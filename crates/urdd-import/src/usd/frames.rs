@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
-use urdd_directory::limits::{Account, Charged};
+use urdd_directory::account::{Account, AccountError, Charged};
 use urdd_usd::Value;
 
 use super::scene::{Scene, is_name, is_site};
@@ -90,8 +90,8 @@ pub fn configurations(
                 .collect();
             let mut configuration =
                 Configuration { name: name.to_string(), values: Charged::default(), base: None };
-            for (body, part) in made.bodies.iter().enumerate() {
-                for (which, joint) in part.joints.iter().enumerate() {
+            for (body, part) in made.bodies.walk(account).at(place)?.enumerate() {
+                for (which, joint) in part.joints.walk(account).at(place)?.enumerate() {
                     let dofs = joint.kind.dofs().iter();
                     let name = joint.name.clone();
                     let values = dofs.map(|dof| known.get(&*format!("{name}{dof}")).copied());
@@ -118,7 +118,7 @@ pub fn clean(pose: Isometry3<f64>) -> Isometry3<f64> {
 }
 
 /// Turns the axes of all frames alike: what was along y is along z.
-pub fn turn(model: &mut Model) {
+pub fn turn(model: &mut Model, account: &Account) -> Result<(), AccountError> {
     let up = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2);
     // Exactly, and not by a quaternion: (x, y, z) becomes (x, -z, y).
     let point = |of: Vector3<f64>| Vector3::new(of.x, -of.z, of.y);
@@ -129,13 +129,13 @@ pub fn turn(model: &mut Model) {
         let place = point(frame.translation.vector);
         Isometry3::from_parts(place.into(), UnitQuaternion::new_unchecked(rotation))
     };
-    for body in model.bodies.iter_mut() {
+    for body in model.bodies.walk_mut(account)? {
         body.pose = turned(&body.pose);
-        for joint in body.joints.iter_mut() {
+        for joint in body.joints.walk_mut(account)? {
             joint.frame = turned(&joint.frame);
             joint.axis = point(joint.axis);
         }
-        for shape in body.shapes.iter_mut() {
+        for shape in body.shapes.walk_mut(account)? {
             let place = point(shape.pose.translation.vector);
             shape.pose = Isometry3::from_parts(place.into(), up * shape.pose.rotation);
         }
@@ -144,11 +144,12 @@ pub fn turn(model: &mut Model) {
             inertial.inertia = mass::turned(&inertial.inertia, &up);
         }
     }
-    for closing in model.closings.iter_mut() {
+    for closing in model.closings.walk_mut(account)? {
         for end in &mut closing.ends {
             // Its z is an axis of the loop, which turns with the body.
             let place = point(end.frame.translation.vector);
             end.frame = Isometry3::from_parts(place.into(), up * end.frame.rotation);
         }
     }
+    Ok(())
 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Translation3};
-use urdd_directory::limits::Charged;
+use urdd_directory::account::Charged;
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::read::{Part, Texture};

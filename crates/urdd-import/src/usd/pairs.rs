@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use urdd_directory::limits::{Account, Charged, Overdrawn};
+use urdd_directory::account::{Account, AccountError, Charged};
 use urdd_usd::{Prim, Value};
 
 use super::frames::Made;
@@ -85,7 +85,11 @@ pub struct Groups {
 }
 
 impl Groups {
-    pub fn of(scene: &Scene<'_>, account: &Account, tally: &mut Tally) -> Result<Self, Overdrawn> {
+    pub fn of(
+        scene: &Scene<'_>,
+        account: &Account,
+        tally: &mut Tally,
+    ) -> Result<Self, AccountError> {
         let all: Vec<(usize, &Prim)> = (scene.stage.prims.iter().enumerate())
             .filter(|(_, prim)| &*prim.type_name == "PhysicsCollisionGroup")
             .collect();
@@ -135,7 +139,7 @@ impl Groups {
         scene: &Scene<'_>,
         prim: usize,
         account: &Account,
-    ) -> Result<BTreeSet<usize>, Overdrawn> {
+    ) -> Result<BTreeSet<usize>, AccountError> {
         let around: Vec<usize> =
             std::iter::successors(Some(prim), |at| scene.prim(*at).parent).collect();
         account.charge(LOOK * self.listed.len() * around.len())?;
@@ -155,7 +159,7 @@ impl Groups {
         solids: &HashMap<usize, Vec<Solid>>,
         account: &Account,
         tally: &mut Tally,
-    ) -> Result<Vec<(usize, usize)>, Overdrawn> {
+    ) -> Result<Vec<(usize, usize)>, AccountError> {
         // The sets of groups that the shapes of each body are in.
         let mut bodies: BTreeMap<usize, BTreeSet<BTreeSet<usize>>> = BTreeMap::new();
         for (body, solids) in solids {

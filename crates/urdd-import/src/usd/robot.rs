@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Translation3, Vector3};
-use urdd_directory::limits::{Account, Charged};
+use urdd_directory::account::{Account, Charged};
 use urdd_format::loops::LoopKind;
 use urdd_kinematics::rotation::from_z;
 use urdd_source::ImportOptions;
@@ -19,7 +19,7 @@ use super::{mass, pairs};
 use crate::features::{self, Tally};
 use crate::graph::{Branch, limits, say_closed};
 use crate::model::{Body, Closing, End, Joint, JointKind, Mimic, Model};
-use crate::place::{Fallible, Placing};
+use crate::place::{Fallible, Place, Placing};
 use crate::tree::Names;
 
 pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallible<Model> {
@@ -65,7 +65,7 @@ pub fn robot(scene: &Scene<'_>, gate: &Gate, options: &ImportOptions) -> Fallibl
         ..Model::default()
     };
     if scene.is_y_up {
-        frames::turn(&mut model);
+        frames::turn(&mut model, account).at(Place::default())?;
     }
     Ok(model)
 }

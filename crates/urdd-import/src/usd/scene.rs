@@ -3,6 +3,7 @@
 use nalgebra::{
     Isometry3, Matrix3, Matrix4, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3,
 };
+use urdd_directory::account::Account;
 use urdd_usd::{Prim, Property, Stage, Value};
 use urdd_xml::is_character;
 
@@ -45,11 +46,7 @@ pub struct Scene<'s> {
 
 impl<'s> Scene<'s> {
     /// What prims inherit. `texts` are those of the layers.
-    pub fn of(
-        stage: &'s Stage,
-        texts: &[&str],
-        account: &urdd_directory::limits::Account,
-    ) -> Fallible<Self> {
+    pub fn of(stage: &'s Stage, texts: &[&str], account: &Account) -> Fallible<Self> {
         account.charge(PRIM * stage.prims.len()).at(Place::default())?;
         let number =
             |name: &str, default| stage.metadata(name).and_then(Value::number).unwrap_or(default);

@@ -43,6 +43,7 @@ impl Asked {
         settings: &LintSettings,
     ) -> Self {
         let meshes = MeshFiles::new(folder, settings);
+        meshes.gate.account().deposit(text.len());
         let find = |name: &str| meshes.mesh(name);
         let file = File::new(file, &find);
         let lines = LineIndex::new(text);
@@ -55,7 +56,7 @@ impl Asked {
         let others = Program::ALL.into_iter().filter(|one| one.is_asked() && !chosen.contains(one));
         let (mut results, mut said, mut refusing) = (Vec::new(), Vec::new(), Vec::new());
         for program in chosen.iter().copied().chain(others) {
-            if settings.report.cancellation.is_cancelled() {
+            if settings.source.cancellation.is_cancelled() {
                 break;
             }
             let is_chosen = chosen.contains(&program);

@@ -241,7 +241,7 @@ fn what_grows_with_a_square_is_charged() {
         let names = names.iter().map(|name| (&**name, ""));
         let files: Vec<_> = [(&*path, &*text)].into_iter().chain(names).collect();
         let found = in_memory(&path, &files);
-        assert!(matches!(found, Err(ArgumentsError::Overdrawn(_))), "{text:.100}: {found:?}");
+        assert!(matches!(found, Err(ArgumentsError::Account(_))), "{text:.100}: {found:?}");
     }
 }
 

@@ -4,8 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::{Files, MemoryFault, Settings, SourceError, SourceMeshes, package_name};
-use urdd_directory::cancellation::Cancellation;
+use crate::{Files, FolderFacts, MemoryFault, Settings, SourceError, SourceMeshes};
 use urdd_directory::limits::{MAX_SET_BYTES, MAX_SET_FILES};
 use urdd_directory::listing::ReadError;
 use urdd_directory::source::Memory;
@@ -29,7 +28,7 @@ fn memory(files: &[(&str, &str)]) -> Result<Files, MemoryFault> {
 
 fn open(files: &[(&str, &str)], path: &str) -> SourceMeshes {
     let settings = Settings { files: memory(files).expect("files"), ..Settings::default() };
-    SourceMeshes::open(Path::new(path), &settings, &Cancellation::default()).expect("a robot")
+    SourceMeshes::open(Path::new(path), &settings).expect("a robot")
 }
 
 #[test]
@@ -55,10 +54,8 @@ fn names_lead_where_they_lead_on_a_disk() {
     assert_eq!(source.read(&mesh).expect("a mesh").triangle_count(), 1);
     let other = source.meshes[3].file.as_ref().expect_err("another case");
     assert_eq!(other.other_case.as_ref().expect("a file").written, "../meshes/a.stl");
-    assert_eq!(
-        package_name(Path::new("/arm"), &memory(&files).unwrap()).unwrap(),
-        "arm_description"
-    );
+    let facts = FolderFacts::new(&memory(&files).unwrap());
+    assert_eq!(facts.package_name(Path::new("/arm")).as_deref(), Some("arm_description"));
 }
 
 #[test]
@@ -83,7 +80,7 @@ fn the_same_files_on_a_disk_give_the_same() {
         source.meshes.iter().map(file).collect::<Vec<_>>()
     };
     let path = folder.path().join("arm/urdf/arm.urdf");
-    let on_disk = SourceMeshes::open(&path, &Settings::default(), &Cancellation::default());
+    let on_disk = SourceMeshes::open(&path, &Settings::default());
     let on_disk = on_disk.expect("a robot");
     let in_memory = open(&files, "arm/urdf/arm.urdf");
     let root = folder.path().canonicalize().unwrap();
@@ -174,7 +171,7 @@ fn a_package_without_a_name_leads_to_no_file_outside() {
     put("secret.stl", STL);
     put("bot/r.urdf", &urdf(&["package://secret.stl", "package://../secret.stl"]));
     let path = folder.path().join("bot/r.urdf");
-    let source = SourceMeshes::open(&path, &Settings::default(), &Cancellation::default());
+    let source = SourceMeshes::open(&path, &Settings::default());
     let source = source.expect("a robot");
     let [above, named] = &source.meshes[..] else { panic!("two meshes") };
     // Nothing above the robot's folder is looked at, unless a name leads there.
@@ -207,8 +204,7 @@ fn a_set_has_bounds_and_no_path_out_of_it() {
 fn xacro_does_not_run_on_a_set() {
     let settings =
         Settings { files: memory(&[("a.xacro", "<robot/>")]).unwrap(), ..Settings::default() };
-    let error =
-        SourceMeshes::open(Path::new("a.xacro"), &settings, &Cancellation::default()).unwrap_err();
+    let error = SourceMeshes::open(Path::new("a.xacro"), &settings).unwrap_err();
     assert!(matches!(error, SourceError::NoXacro { .. }), "{error}");
 }
 
@@ -217,8 +213,7 @@ fn searched(files: &[(&str, &str)], lost: &[&str], path: &str) -> Vec<Option<Str
     let files = memory(files).expect("files");
     let lost = |file: &Path| lost.iter().any(|lost| Path::new("/").join(lost) == file);
     let settings = Settings { files: files.searched(lost), ..Settings::default() };
-    let source =
-        SourceMeshes::open(Path::new(path), &settings, &Cancellation::default()).expect("a robot");
+    let source = SourceMeshes::open(Path::new(path), &settings).expect("a robot");
     let file = |mesh: &crate::SourceMesh| Some(mesh.file.as_ref().ok()?.display().to_string());
     source.meshes.iter().map(file).collect()
 }
@@ -256,8 +251,9 @@ fn lost_files_are_found_by_their_last_names_and_others_by_names_that_lead_out() 
 fn manifests_are_never_searched() {
     let files = [("arm.urdf", "<robot name='r'/>"), ("package.xml", PACKAGE), ("b/x.stl", STL)];
     let files = memory(&files).expect("files").searched(|_| true);
-    assert_eq!(package_name(Path::new("/b"), &files), None);
-    assert_eq!(package_name(Path::new("/"), &files).as_deref(), Some("arm_description"));
+    let facts = FolderFacts::new(&files);
+    assert_eq!(facts.package_name(Path::new("/b")), None);
+    assert_eq!(facts.package_name(Path::new("/")).as_deref(), Some("arm_description"));
 }
 
 #[test]
@@ -276,8 +272,7 @@ fn what_is_elsewhere_is_asked_for_when_it_is_needed() {
     let all = all.map(|(path, size)| (path.to_owned(), size));
     let files = Files::of(memory, "bot", all).unwrap();
     let settings = Settings { files, ..Settings::default() };
-    let source =
-        SourceMeshes::open(Path::new("bot/arm.urdf"), &settings, &Cancellation::default()).unwrap();
+    let source = SourceMeshes::open(Path::new("bot/arm.urdf"), &settings).unwrap();
     let mesh = source.meshes[0].file.as_ref().expect("a file");
     assert_eq!((mesh.as_path(), asked()), (Path::new("/bot/a.stl"), 0));
     assert_eq!(source.read(mesh).expect("a mesh").triangle_count(), 1);

@@ -34,7 +34,7 @@ fn drawing_after(pause: Duration, urdfs: &[&Path], act: impl FnOnce(&Running)) -
     let live = Live { folder: folder.path(), settings: &settings, observer: &Quiet, pause };
     thread::scope(|scope| {
         scope.spawn(|| live.run(&collection));
-        let _ends = super::living::Ends(settings.cancellation.clone());
+        let _ends = super::living::Ends(settings.source.cancellation.clone());
         act(&Running::with(Arc::clone(&collection)));
         testkit::files::below(folder.path()).into_keys().collect()
     })

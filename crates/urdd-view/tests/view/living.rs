@@ -50,7 +50,7 @@ fn living_after(pause: Duration, collection: Collection, act: impl FnOnce(&Runni
     let live = Live { folder: folder.path(), settings: &settings, observer: &Quiet, pause };
     std::thread::scope(|scope| {
         scope.spawn(|| live.run(&collection));
-        let _ends = Ends(settings.cancellation.clone());
+        let _ends = Ends(settings.source.cancellation.clone());
         act(&Running::with(Arc::clone(&collection)));
     });
 }

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use crate::import;
-use urdd_directory::cancellation::Cancellation;
 
 /// The URDF of a model, which is a robot.
 fn urdf(inside: &str, files: &[(&str, &str)]) -> String {
@@ -12,7 +11,7 @@ fn urdf(inside: &str, files: &[(&str, &str)]) -> String {
     let settings = super::memory(&all);
     let imported = import(Path::new("/m.sdf"), &settings).expect("an import").expect("an SDF");
     let inner = imported.settings(&settings).expect("files");
-    imported.load(&inner, &Cancellation::default()).expect("a robot");
+    imported.load(&inner).expect("a robot");
     imported.text().to_owned()
 }
 
