@@ -83,11 +83,62 @@ fn lint_takes_a_stated_multiple_of_memory() {
         text(&long, &"<vsual/>".repeat(4_000)),
         text("l", &"<visual/>".repeat(40_000)),
         text("l", &sphere.repeat(4_000)),
+        text("l", &"<vsual/>".repeat(90_000)),
+        format!("<robot name=\"r\"><link name=\"l\"/>{}</robot>", "<lnk/>".repeat(120_000)),
     ] {
         fs::write(folder.path().join("r.urdf"), &text).unwrap();
         let limit = OWN + 100 * text.len() + (128 << 20);
         let output = urdd(limit, &["lint", "r.urdf", "--format", "json"], folder.path());
         assert_eq!(output.status.code(), Some(0), "{} bytes: {:?}", text.len(), output.stderr);
+    }
+}
+
+/// What a robot's package says of itself is read beside it.
+#[test]
+fn a_package_takes_a_stated_multiple_of_memory() {
+    let folder = testkit::temporary::folder();
+    let mesh =
+        "<visual><geometry><mesh filename=\"package://p/meshes/s.stl\"/></geometry></visual>";
+    let urdf = format!("<robot name=\"r\"><link name=\"l\">{mesh}</link></robot>");
+    let manifest = "<package><name>p</name></package>";
+    let (names, place) = ("a ".repeat(30_000), "x".repeat(60_000));
+    let python = format!(
+        "name = 'p'\nlong = '{}'\nsetup(data_files=[('share/p/'{}, [{}])])",
+        "x".repeat(255),
+        " + long".repeat(120),
+        "'a',".repeat(600)
+    );
+    let depends =
+        format!("<package><name>p</name>{}</package>", "<depend>q</depend>".repeat(40_000));
+    for (file, text) in [
+        (
+            "CMakeLists.txt",
+            format!("project(p)\ninstall(FILES {names} DESTINATION share/p/{place})"),
+        ),
+        ("setup.py", python),
+        ("package.xml", depends),
+        ("package.xml", format!("<package><name>{}</name></package>", "p".repeat(900_000))),
+    ] {
+        fs::write(folder.path().join("package.xml"), manifest).unwrap();
+        fs::write(folder.path().join("r.urdf"), &urdf).unwrap();
+        fs::write(folder.path().join(file), &text).unwrap();
+        let limit = OWN + 100 * (urdf.len() + text.len()) + (64 << 20);
+        let lint = urdd(limit, &["lint", "r.urdf", "--format", "json"], folder.path());
+        assert_eq!(
+            lint.status.code(),
+            Some(1),
+            "{file}: {:?}",
+            String::from_utf8_lossy(&lint.stderr)
+        );
+        let made = ["generate", "r.urdf", "-o", "r", "--force", "--modules", "original_meshes"];
+        let made = urdd(limit, &made, folder.path());
+        assert_eq!(
+            made.status.code(),
+            Some(0),
+            "{file}: {:?}",
+            String::from_utf8_lossy(&made.stderr)
+        );
+        fs::remove_file(folder.path().join(file)).unwrap();
     }
 }
 

@@ -135,6 +135,19 @@ impl Draw {
         self.files.insert(name.to_owned(), content.into());
     }
 
+    /// Shapes whose meshes are in the package, or nearly.
+    fn of_package(&mut self, kind: &str) -> String {
+        let long = self.name("n");
+        let depends = self.many("dependencies", |_| "<depend>q</depend>".to_owned());
+        self.file("package.xml", format!("<package><name>p</name>{depends}</package>"));
+        let folder = self.one_of(&["p/meshes", "p", "P", "q", "p_"]);
+        self.many("meshes of a package", |number| {
+            let file =
+                format!("package://{folder}/{}a{number}.stl", &long[..long.len().min(number)]);
+            format!("<{kind}><geometry><mesh filename=\"{file}\"/></geometry></{kind}>")
+        })
+    }
+
     fn stl(&mut self, name: &str) {
         let count = (self.size / 50) >> self.dice.below(6);
         let mut bytes = vec![0; 80];
@@ -286,6 +299,37 @@ fn urdf(draw: &mut Draw) {
                         "<visual><geometry><mesh filename=\"{number}.stl\"/></geometry></visual>"
                     )
                 });
+            }
+            21 => {
+                let (rules, folder) = (
+                    draw.many("install rules", |number| {
+                        format!("install(DIRECTORY m{number}/ DESTINATION share/p/meshes)\n")
+                    }),
+                    draw.name("d"),
+                );
+                let names = draw.many("files of an install rule", |_| "a ".to_owned());
+                let rules = format!(
+                    "project(p)\n{rules}install(FILES {names} DESTINATION share/p/{folder})"
+                );
+                draw.file("CMakeLists.txt", rules);
+                in_link += &draw.of_package(kind);
+            }
+            22 => {
+                let names = draw.many("data files", |_| "'a',".to_owned());
+                let (lines, folder) =
+                    (draw.many("variables", |number| format!("v{number} = 'x'\n")), draw.name("d"));
+                draw.file(
+                    "setup.py",
+                    format!("name = 'p'\nf = '{folder}'\n{lines}setup(data_files=[('share/p/' + f + f, [{names}])])"),
+                );
+                in_link += &draw.of_package(kind);
+            }
+            23 => {
+                let files = draw.many("files of the folder", |number| format!("{number} "));
+                for number in files.split_whitespace().take(2_000) {
+                    draw.file(&format!("Meshes/A{number}.stl"), "x");
+                }
+                in_link += &draw.of_package(kind);
             }
             _ => {
                 let pairs = draw.many("pairs", |number| {
@@ -574,7 +618,9 @@ fn whatever_multiplies_is_bounded() {
         let input: usize = draw.files.values().map(Vec::len).sum();
         let folder = tempfile::tempdir().unwrap();
         for (name, bytes) in &draw.files {
-            std::fs::write(folder.path().join(name), bytes).unwrap();
+            let path = folder.path().join(name);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, bytes).unwrap();
         }
         let files = draw.files.into_iter().map(|(name, bytes)| (name, Arc::from(bytes)));
         let source = Settings { files: Files::in_memory(files).unwrap(), ..Settings::default() };

@@ -35,6 +35,13 @@ fn rows(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; 3]>> {
     Ok(values.as_chunks().0.to_vec())
 }
 
+/// Refuses too many points of a cloud, or heights of a field, before they are copied.
+fn check_count(py: Python<'_>, name: &str, count: usize) -> PyResult<()> {
+    let checked = urdd_robot::Obstacle::check_count(name, count);
+    checked.map_err(|error| of_robot(py, &error))?;
+    check_memory(count.saturating_mul(BYTES_A_VERTEX))
+}
+
 #[pymethods]
 impl Obstacle {
     #[staticmethod]
@@ -101,8 +108,8 @@ impl Obstacle {
         points: PyReadonlyArray2<'_, f64>,
         radius: f64,
     ) -> PyResult<Self> {
+        check_count(py, name, points.shape()[0])?;
         let points = rows(&points)?;
-        check_memory(points.len().saturating_mul(BYTES_A_VERTEX))?;
         let make = |pose| urdd_robot::Obstacle::points(name, pose, &points, radius);
         obstacle(py, &pose, make)
     }
@@ -118,8 +125,8 @@ impl Obstacle {
         thickness: f64,
     ) -> PyResult<Self> {
         let columns = heights.shape()[1];
+        check_count(py, name, heights.shape()[0].saturating_mul(columns))?;
         let heights = copy(&heights)?;
-        check_memory(heights.len().saturating_mul(BYTES_A_VERTEX))?;
         let make = |pose| {
             urdd_robot::Obstacle::height_field(name, pose, &heights, columns, cell, thickness)
         };

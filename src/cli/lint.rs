@@ -201,6 +201,10 @@ fn write_robots(
 
 /// Writes a baseline. A file that is there must be one.
 fn write_baseline(file: &Path, run: &Run) -> Result<u8, Failure> {
+    if file.is_symlink() && !file.exists() {
+        let words = "it is a link that leads nowhere; remove it, or name another file";
+        return Err(about(file)(words).into());
+    }
     if file.exists() {
         Baseline::read(file)?;
     }

@@ -52,14 +52,23 @@ pub fn print_some(text: &str) -> Result<bool, String> {
     write(&safe(text))
 }
 
+/// Writes the bytes of a file to standard output.
+pub fn print_bytes(bytes: &[u8]) -> Result<(), String> {
+    write_bytes(bytes).map(|_| ())
+}
+
 /// Writes text. Returns false if it is a pipe that its reader has closed.
 fn write(text: &str) -> Result<bool, String> {
+    write_bytes(text.as_bytes())
+}
+
+fn write_bytes(bytes: &[u8]) -> Result<bool, String> {
     let failed = |reason: &str| Err(format!("standard output cannot be written: {reason}"));
     if CLOSED.load(Ordering::Relaxed) {
         return failed("it is closed");
     }
     let mut out = io::stdout().lock();
-    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    let written = out.write_all(bytes).and_then(|()| out.flush());
     match written {
         Ok(()) => Ok(true),
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(false),

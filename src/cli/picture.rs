@@ -32,7 +32,7 @@ pub struct PictureArguments {
     #[arg(required = true, value_name = "ROBOT")]
     paths: Vec<PathBuf>,
 
-    /// The file to write.
+    /// The file to write; `-` is standard output.
     #[arg(long, short, value_name = "FILE.png")]
     output: PathBuf,
 
@@ -94,6 +94,10 @@ pub fn run(arguments: &PictureArguments, watch: &Watch) -> Result<u8, Failure> {
         let picture = png(&robot, &configuration, &drawing, cancellation);
         let picture = picture.map_err(about(path))?;
         let picture = picture.ok_or_else(|| about(path)("it has no shape to draw"))?;
+        if arguments.output.as_os_str() == "-" {
+            output::print_bytes(&picture)?;
+            return Ok(0);
+        }
         output::write_alone(&arguments.output, &picture, arguments.force)?;
         output::print(&format!("{}\n", shown(&arguments.output)))?;
         Ok(0)

@@ -357,3 +357,26 @@ pub mod xacro {
         assert!(!text.contains("`urdd lint` finds more"), "{text}");
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn no_baseline_is_written_where_a_link_leads() {
+    let folder = slide();
+    let (folder, elsewhere) = (folder.path(), testkit::temporary::folder());
+    let target = elsewhere.path().join("new.json");
+    std::os::unix::fs::symlink(&target, folder.join("known.json")).expect("a link");
+    let refused = output(&["lint", ".", "--write-baseline", "known.json"], folder);
+    assert_eq!(refused.status.code(), Some(2), "{refused:?}");
+    let words = String::from_utf8_lossy(&refused.stderr);
+    assert!(words.contains("known.json: it is a link that leads nowhere"), "{words}");
+    assert!(!target.exists());
+}
+
+#[test]
+fn what_cannot_be_read_is_told_at_its_file_in_a_pull_request() {
+    let folder = slide();
+    write(folder.path(), "robots/broken.xml", "<mujoco><worldbody>");
+    let printed = output(&["lint", "robots/broken.xml", "--format", "github"], folder.path());
+    let words = String::from_utf8_lossy(&printed.stdout);
+    assert!(words.contains("::error file=robots/broken.xml,title=unreadable::"), "{words}");
+}

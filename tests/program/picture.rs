@@ -86,3 +86,19 @@ fn what_cannot_be_drawn_is_said_and_nothing_is_lost() {
     assert_eq!(fs::read_to_string(folder.join("mine.png")).expect("a file"), "mine");
     assert!(!folder.join("new.png").exists());
 }
+
+#[test]
+fn a_picture_is_written_to_standard_output() {
+    let folder = testkit::temporary::folder();
+    fs::write(folder.path().join("bars.urdf"), BARS).expect("written");
+    let to = |output: &str| {
+        let arguments = ["picture", "bars.urdf", "-o", output];
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_urdd"));
+        command.args(arguments).current_dir(folder.path()).output().expect("an output")
+    };
+    let printed = to("-");
+    assert_eq!(printed.status.code(), Some(0), "{printed:?}");
+    assert!(!folder.path().join("-").exists());
+    assert_eq!(to("file.png").status.code(), Some(0));
+    assert_eq!(printed.stdout, fs::read(folder.path().join("file.png")).expect("a file"));
+}

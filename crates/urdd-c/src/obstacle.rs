@@ -184,6 +184,7 @@ pub unsafe extern "C" fn urdd_obstacle_points(
 ) -> Status {
     unsafe {
         named(name, pose, out, |name, pose| {
+            RobotObstacle::check_count(name, count)?;
             let points = values("points", points, count.saturating_mul(3))?.as_chunks().0;
             enough("points", count, COPY)?;
             Ok(RobotObstacle::points(name, pose, points, radius)?)
@@ -210,6 +211,7 @@ pub unsafe extern "C" fn urdd_obstacle_height_field(
     unsafe {
         named(name, pose, out, |name, pose| {
             let count = rows.saturating_mul(columns);
+            RobotObstacle::check_count(name, count)?;
             let (heights, cell) = (values("heights", heights, count)?, values("cell", cell, 2)?);
             enough("heights", count, COPY)?;
             let cell = [cell[0], cell[1]];

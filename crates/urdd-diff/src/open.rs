@@ -7,7 +7,7 @@ use std::sync::Arc;
 use urdd_directory::account::Account;
 use urdd_directory::discover::{Found, discover};
 use urdd_directory::file_type::setup_beside;
-use urdd_directory::limits::MAX_TOML_BYTES;
+use urdd_directory::limits::MAX_SETUP_BYTES;
 use urdd_directory::path;
 use urdd_directory::regular;
 use urdd_directory::root::{ReadError, Root};
@@ -180,7 +180,7 @@ fn open_urdd(
 fn setup(urdd: &Path) -> Option<Companion> {
     let path = setup_beside(urdd);
     path.symlink_metadata().ok()?;
-    let bytes = regular::read(&path, MAX_TOML_BYTES).map_err(|error| error.to_string());
+    let bytes = regular::read(&path, MAX_SETUP_BYTES).map_err(|error| error.to_string());
     Some(bytes.and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())))
 }
 

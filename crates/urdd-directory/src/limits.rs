@@ -47,8 +47,11 @@ pub const MAX_PART_BYTES: usize = 1020;
 /// Largest `VERSION` file of a module, bytes.
 pub const MAX_VERSION_BYTES: u64 = 1024;
 
-/// Largest TOML file, bytes: `NAME.export.toml`, a recipe, `urdd.toml`.
+/// Largest TOML file that a person writes, bytes: a recipe, `urdd.toml`.
 pub const MAX_TOML_BYTES: u64 = 1 << 20;
+
+/// Largest `NAME.export.toml` and `NAME.loops.toml`, and list of loops in YAML, bytes. Imports write no larger one.
+pub const MAX_SETUP_BYTES: u64 = 16 << 20;
 
 /// Largest file that says what a package or a model has, bytes: `package.xml`, `model.config`, `CMakeLists.txt`,
 /// `setup.py`, a launch file.

@@ -1,6 +1,6 @@
 //! Settings of a run: the rules to report, and how what is found is reported.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::str::FromStr;
 
 use globset::{Glob, GlobSet};
@@ -135,6 +135,9 @@ pub enum SettingsError {
     /// An entry of `[[robot]]`.
     #[error(transparent)]
     Robot(#[from] RobotError),
+    /// It has very many patterns.
+    #[error(transparent)]
+    Account(#[from] AccountError),
 }
 
 /// Maximum number of variants of a settings file: each is expanded by xacro.
@@ -162,6 +165,17 @@ impl Settings {
     pub fn apply(&self, examined: &mut [Examined]) -> Vec<StaleIgnore> {
         let mut used = vec![false; self.ignores.len()];
         for Examined { report, checks } in examined {
+            // By file: the ignores whose patterns match it.
+            let mut known: HashMap<Option<String>, Vec<usize>> = HashMap::new();
+            let matching = |file: Option<&str>| -> Vec<usize> {
+                let path = format!("{}/{}", report.path, file.unwrap_or(""));
+                let is_of = |ignore: &Ignore| {
+                    ignore.path.is_match(&path)
+                        || report.kind == Kind::Urdf && ignore.path.is_match(&report.path)
+                };
+                let all = self.ignores.iter().enumerate();
+                all.filter(|(_, ignore)| is_of(ignore)).map(|(place, _)| place).collect()
+            };
             for check in &mut *checks {
                 if let Some(severity) = self.severities.get(&check.rule.code) {
                     check.severity = *severity;
@@ -169,14 +183,14 @@ impl Settings {
                 }
                 let mut reason = None;
                 check.findings.retain(|finding| {
-                    let file = finding.place.file.as_deref().unwrap_or("");
-                    let path = format!("{}/{file}", report.path);
-                    let ignore = self.ignores.iter().position(|ignore| {
-                        ignore.code.is_none_or(|code| code == check.rule.code)
-                            && (ignore.path.is_match(&path)
-                                || (report.kind == Kind::Urdf
-                                    && ignore.path.is_match(&report.path)))
-                    });
+                    let file = &finding.place.file;
+                    if !known.contains_key(file) {
+                        known.insert(file.clone(), matching(file.as_deref()));
+                    }
+                    let is_of = |place: &&usize| {
+                        self.ignores[**place].code.is_none_or(|code| code == check.rule.code)
+                    };
+                    let ignore = known[file].iter().find(is_of).copied();
                     if let Some(place) = ignore {
                         used[place] = true;
                         reason = Some(&self.ignores[place].reason);
@@ -202,6 +216,9 @@ impl Settings {
 
 /// Maximum length of a pattern, bytes: a hundred thousand nested alternatives exhaust the stack.
 const LONGEST_PATTERN: usize = 1000;
+
+/// The bytes that a pattern takes, about.
+pub(crate) const PATTERN: usize = 16 << 10;
 
 pub(crate) fn matcher(pattern: &str) -> Result<GlobSet, SettingsError> {
     let refused = |reason: String| SettingsError::Pattern {

@@ -9,8 +9,8 @@ use thiserror::Error;
 use toml::Spanned;
 
 use super::settings::{
-    Exclude, Ignore, MAX_VARIANTS, RobotError, Settings, SettingsError, matcher, parse_class,
-    parse_code, parse_program, parse_severity,
+    Exclude, Ignore, MAX_VARIANTS, PATTERN, RobotError, Settings, SettingsError, matcher,
+    parse_class, parse_code, parse_program, parse_severity,
 };
 use urdd_directory::account::Account;
 use urdd_directory::file_type::stem;
@@ -202,7 +202,13 @@ fn parsed(text: &str, folder: &Path) -> Result<SettingsFile, (Option<Position>, 
 impl File {
     /// The content of a file of so many bytes; what is wrong comes with its byte offset.
     fn content(self, bytes: usize, folder: &Path) -> Result<SettingsFile, (usize, SettingsError)> {
-        let robots = declared(self.robot, bytes, folder)
+        let account = Account::default();
+        account.deposit(bytes);
+        let pattern = |text: &Spanned<String>| {
+            let charged = account.charge(PATTERN);
+            charged.map_err(|error| (text.span().start, SettingsError::Account(error)))
+        };
+        let robots = declared(self.robot, &account, folder)
             .map_err(|(start, error)| (start, SettingsError::Robot(error)))?;
         let mut settings = Settings {
             class: self.class.map(|class| at(&class, parse_class)).transpose()?,
@@ -218,6 +224,7 @@ impl File {
                 let error = SettingsError::EmptyReason(ignore.path.into_inner());
                 return Err((ignore.reason.span().start, error));
             }
+            pattern(&ignore.path)?;
             settings.ignores.push(Ignore {
                 code: ignore.code.map(|code| at(&code, parse_code)).transpose()?,
                 path: at(&ignore.path, matcher)?,
@@ -225,8 +232,9 @@ impl File {
                 reason: ignore.reason.into_inner(),
             });
         }
-        for pattern in &self.exclude {
-            settings.excludes.push(at(pattern, Exclude::new)?);
+        for exclude in &self.exclude {
+            pattern(exclude)?;
+            settings.excludes.push(at(exclude, Exclude::new)?);
         }
         for name in &self.programs {
             settings.programs.push(at(name, parse_program)?);
@@ -291,14 +299,11 @@ impl Value {
 }
 
 /// The robots of all entries: of each, the product of its lists. What is wrong comes with its byte offset.
-/// `bytes` is the length of the file.
 fn declared(
     entries: Vec<Entry>,
-    bytes: usize,
+    account: &Account,
     folder: &Path,
 ) -> Result<Vec<DeclaredRobot>, (usize, RobotError)> {
-    let account = Account::default();
-    account.deposit(bytes);
     let mut robots = Vec::new();
     for entry in entries {
         let start = entry.path.span().start;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use urdd_directory::account::AccountError;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::limits::{MAX_DOCUMENT_BYTES, MAX_SETUP_BYTES, MAX_SRDF_BYTES};
 use urdd_directory::path::{self, portable};
 use urdd_directory::writer::sha256;
 use urdd_format::link_shapes_skips::SkipEdit;
@@ -235,7 +235,7 @@ pub fn open<T>(
 ) -> Result<(SourceMeshes, T), SourceError> {
     let Some(imported) = import(path, settings)? else {
         let (source, also) = load_with(path, settings, also)?;
-        return Ok((SourceMeshes::of(source, settings, None), also));
+        return Ok((SourceMeshes::of(source, settings, None)?, also));
     };
     let settings = imported.settings(settings)?;
     let (source, also) = imported.load_with(&settings, |xml, _| also(xml, false))?;
@@ -248,7 +248,7 @@ pub fn open<T>(
             configurations: imported.configurations,
         }),
     };
-    Ok((SourceMeshes::of(source, &settings, Some(beside)), also))
+    Ok((SourceMeshes::of(source, &settings, Some(beside))?, also))
 }
 
 fn written(
@@ -279,11 +279,19 @@ fn written(
         (LOOPS, urdf::loops(&model, account).map_err(whole)?),
         (SETUP, urdf::setup(&model, &tree, account).map_err(whole)?),
     ];
-    files.extend(
-        companions.into_iter().filter_map(|(ending, text)| {
-            Some((base.to_owned() + ending, text?.into_bytes().into()))
-        }),
-    );
+    for (ending, text) in companions {
+        let Some(text) = text else { continue };
+        let limit = if ending == SRDF { MAX_SRDF_BYTES } else { MAX_SETUP_BYTES };
+        // What is written must be readable.
+        if text.len() as u64 > limit {
+            let reason = format!(
+                "its `{base}{ending}` would be longer than {} MiB; shorten what is repeated: names, configurations, pairs",
+                limit >> 20
+            );
+            return Err(SourceError::unread(&shown, reason));
+        }
+        files.insert(base.to_owned() + ending, text.into_bytes().into());
+    }
     let mut has_ellipsoids = false;
     for body in model.bodies.walk(account).map_err(whole)? {
         let mut shapes = body.shapes.walk(account).map_err(whole)?;

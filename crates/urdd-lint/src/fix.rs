@@ -1,5 +1,6 @@
 //! Mends what has one right answer, in the file that a path leads to.
 
+use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -129,20 +130,24 @@ fn with_fixes<'a>(
         place.fixes.iter().find(of_file)
     });
     let mut all: Vec<Edit> = Vec::new();
+    // The ends of edits by their beginnings: none touches another fix.
+    let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
     let mut mended = 0;
     for fix in fixes {
         let edits: Option<Vec<Edit>> = fix.edits.iter().map(|edit| edit_of(&lines, edit)).collect();
         let Some(edits) = edits else { continue };
         let touches = |edit: &Edit| {
-            let near = |other: &Edit| {
-                edit.range.start <= other.range.end && other.range.start <= edit.range.end
-            };
-            all.iter().any(near)
+            let before = ends.range(..=edit.range.end).next_back();
+            before.is_some_and(|(_, end)| *end >= edit.range.start)
         };
         if edits.iter().any(touches) {
             continue;
         }
         mended += 1;
+        for edit in &edits {
+            let end = ends.entry(edit.range.start).or_default();
+            *end = edit.range.end.max(*end);
+        }
         all.extend(edits);
     }
     (apply(text, all), mended)

@@ -36,6 +36,8 @@ pub fn is_read_here(file: &Path) -> bool {
 pub struct MeshFacts {
     /// Corners of the convex hull, before the element's scale; all vertices where they have no volume.
     pub solid: Arc<Solid>,
+    /// The lengths of the smallest box along the axes around them.
+    pub lengths: Vector3<f64>,
     pub triangles: usize,
     /// Format of the content.
     pub format: Format,
@@ -76,6 +78,8 @@ pub struct Shapes {
     pub shapes: Vec<Shape>,
     /// Whether a shape is missing: its mesh was not found or read, or there are too many corners.
     pub is_partial: bool,
+    /// Whether one of them is turned, as in [`Shape::is_turned`].
+    pub is_turned: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -127,11 +131,6 @@ impl Shapes {
             }
             _ => Hull::of(self.corners()),
         }
-    }
-
-    /// Whether one of the shapes is turned, as in [`Shape::is_turned`].
-    pub fn is_turned(&self) -> bool {
-        self.shapes.iter().any(|shape| shape.is_turned)
     }
 
     pub fn corners(&self) -> impl Iterator<Item = Vector3<f64>> {
@@ -209,11 +208,14 @@ fn facts(scene: &Scene) -> MeshFacts {
         a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
     });
     vertices.dedup();
+    let solid = match ConvexHull::new(&vertices) {
+        Ok(hull) => Solid::of_hull(hull),
+        Err(_) => Solid::of(vertices.into_iter().map(Vector3::from).collect()),
+    };
+    let lengths = bounds(solid.corners.iter().copied());
     MeshFacts {
-        solid: match ConvexHull::new(&vertices) {
-            Ok(hull) => Solid::of_hull(hull),
-            Err(_) => Solid::of(vertices.into_iter().map(Vector3::from).collect()),
-        },
+        solid,
+        lengths: lengths.map_or_else(Vector3::zeros, |(low, high)| high - low),
         triangles: scene.triangle_count(),
         format: scene.format,
         notes: scene.notes.clone(),
@@ -258,6 +260,7 @@ fn of_links(
                 });
                 match found {
                     Some((solid, scale)) => {
+                        geometry.is_turned |= is_turned;
                         let poses = [element.origin.motion(), Isometry3::identity()];
                         geometry.shapes.push(Shape { kind, is_turned, solid, scale, poses });
                     }
@@ -276,6 +279,7 @@ fn of_body(top: usize, robot: &Robot, bodies: &Bodies, links: &[Shapes]) -> Shap
     for link in bodies.members(top) {
         let geometry = &links[link];
         body.is_partial |= geometry.is_partial;
+        body.is_turned |= geometry.is_turned;
         let place = |shape: &Shape| shape.placed(&bodies.pose[link]);
         body.shapes.extend(geometry.shapes.iter().map(place));
         corners += geometry.shapes.iter().map(|shape| shape.solid.corners.len()).sum::<usize>();

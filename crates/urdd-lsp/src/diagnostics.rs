@@ -1,7 +1,7 @@
 //! Findings as editors show them, changes that mend them, and what keeps rules from running: a text that is not XML, a rule that
 //! crashed.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use std::path::Path;
 
@@ -280,21 +280,26 @@ pub fn code_actions(
 
 /// The edits of the first safe fix of each finding, without those that overlap earlier ones.
 fn all_safe(found: &[Found]) -> Vec<Vec<TextEdit>> {
-    let mut taken: Vec<&Repair> = Vec::new();
+    let mut taken: Vec<Vec<TextEdit>> = Vec::new();
+    // The ends of edits by their beginnings: none touches another repair.
+    let mut ends: BTreeMap<Position, Position> = BTreeMap::new();
     for one in found {
         let Some(repair) = one.repairs.iter().find(|repair| repair.is_safe) else {
             continue;
         };
-        let overlaps = |other: &&Repair| {
-            let pairs = other.edits.iter();
-            let mut pairs = pairs.flat_map(|a| repair.edits.iter().map(move |b| (a, b)));
-            pairs.any(|(a, b)| touch(a.range, b.range))
+        let overlaps = |edit: &TextEdit| {
+            let before = ends.range(..=edit.range.end).next_back();
+            before.is_some_and(|(_, end)| *end >= edit.range.start)
         };
-        if !taken.iter().any(overlaps) {
-            taken.push(repair);
+        if !repair.edits.iter().any(overlaps) {
+            for edit in &repair.edits {
+                let end = ends.entry(edit.range.start).or_insert(edit.range.end);
+                *end = edit.range.end.max(*end);
+            }
+            taken.push(repair.edits.clone());
         }
     }
-    taken.into_iter().map(|repair| repair.edits.clone()).collect()
+    taken
 }
 
 /// Whether two ranges overlap, or touch.

@@ -4,6 +4,8 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use urdd_xml::MAX_LEVELS;
+
 /// The elements of a text, in the order in which they begin.
 #[derive(Debug)]
 pub struct Markup {
@@ -281,7 +283,8 @@ impl Scan<'_> {
             parent: self.open.last().copied(),
             is_finished,
         });
-        if !is_empty {
+        // Deeper elements are read as empty: each tag is compared with all that are open.
+        if !is_empty && self.open.len() < MAX_LEVELS {
             self.open.push(self.elements.len() - 1);
         }
         at

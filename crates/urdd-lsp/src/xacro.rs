@@ -18,7 +18,7 @@ use urdd_format::index::Count;
 use urdd_format::report::{Place, WrittenAt};
 use urdd_lint::{lint_source, lint_undeclared};
 use urdd_source::macros::has_no_link;
-use urdd_source::{SourceError, package_name, read_source};
+use urdd_source::{FolderFacts, SourceError, read_source};
 use urdd_xml::Xml;
 
 /// What is wrong with the text as it is.
@@ -218,6 +218,7 @@ fn named(name: &str, folder: &Path, packages: &[(String, &Path)]) -> Option<Path
 
 /// The packages that contain a folder: others may be anywhere.
 fn own_packages(folder: &Path) -> Vec<(String, &Path)> {
-    let named = |above| Some((package_name(above, &urdd_source::Files::Disk)?, above));
+    let facts = FolderFacts::new(&urdd_source::Files::Disk);
+    let named = |above| Some((facts.package_name(above)?.to_string(), above));
     folder.ancestors().filter_map(named).collect()
 }

@@ -26,9 +26,22 @@ pub struct Effect {
     pub makes: Option<String>,
 }
 
-/// What a program does with a file, as its reader finds it out.
+/// Maximum number of effects that are kept of a program; the rest are counted. As many places are kept of a finding.
+pub const KEPT: usize = 10_000;
+
+/// What a program does with a file, as its reader finds it out. What ends reading is always among what is kept.
 #[derive(Debug, Clone, Default)]
-pub struct Effects(pub Vec<Effect>);
+pub struct Effects {
+    kept: Vec<Effect>,
+    /// Number of the others.
+    cut: usize,
+    /// The worst of the others, and of those of them that are not usual.
+    worst_cut: [Option<Deed>; 2],
+}
+
+/// How much was known of a file.
+#[derive(Clone, Copy)]
+pub(crate) struct Mark(usize, usize);
 
 /// The file is refused: reading ends.
 pub struct Refused;
@@ -39,7 +52,50 @@ pub type Reading<T> = Result<T, Refused>;
 impl Effects {
     /// The worst that happens; none if all is read as it is written.
     pub fn worst(&self) -> Option<Deed> {
-        self.0.iter().map(|effect| effect.deed).max()
+        self.kept.iter().map(|effect| effect.deed).max().max(self.worst_cut[0])
+    }
+
+    /// The worst that is not what the program does with every such part.
+    pub fn worst_unusual(&self) -> Option<Deed> {
+        let unusual = self.kept.iter().filter(|effect| !effect.fault.is_usual());
+        unusual.map(|effect| effect.deed).max().max(self.worst_cut[1])
+    }
+
+    /// What is kept.
+    pub fn kept(&self) -> &[Effect] {
+        &self.kept
+    }
+
+    /// As [`Effects::kept`], to change it.
+    pub fn kept_mut(&mut self) -> &mut [Effect] {
+        &mut self.kept
+    }
+
+    /// What is kept, taken.
+    pub fn into_kept(self) -> Vec<Effect> {
+        self.kept
+    }
+
+    /// The number of effects that are not kept.
+    pub fn cut(&self) -> usize {
+        self.cut
+    }
+
+    pub(crate) fn mark(&self) -> Mark {
+        Mark(self.kept.len(), self.cut)
+    }
+
+    /// Forgets what came after a mark.
+    pub(crate) fn forget(&mut self, Mark(kept, cut): Mark) {
+        self.kept.truncate(kept);
+        self.cut = cut;
+    }
+
+    /// Counts effects that nobody kept.
+    pub(crate) fn count(&mut self, count: usize, deed: Deed) {
+        self.cut += count;
+        let worst = Some(deed).filter(|_| count > 0);
+        self.worst_cut = self.worst_cut.map(|known| known.max(worst));
     }
 
     /// Whether the program has a robot in the end.
@@ -48,8 +104,14 @@ impl Effects {
     }
 
     fn add(&mut self, deed: Deed, at: usize, part: Part, fault: Fault, makes: Option<&str>) {
+        if self.kept.len() >= KEPT && deed < Deed::Refuses {
+            self.cut += 1;
+            let unusual = Some(deed).filter(|_| !fault.is_usual());
+            self.worst_cut = [self.worst_cut[0].max(Some(deed)), self.worst_cut[1].max(unusual)];
+            return;
+        }
         let makes = makes.map(|makes| short::name(makes).into_owned());
-        self.0.push(Effect { deed, at, part, fault, makes });
+        self.kept.push(Effect { deed, at, part, fault, makes });
     }
 
     pub(crate) fn refuse<T>(&mut self, at: impl At, fault: Fault) -> Reading<T> {
@@ -212,9 +274,35 @@ impl Deref for Part {
     }
 }
 
+/// A colour as it is written, read once, however many others are compared with it.
+#[derive(Clone)]
+pub struct Color {
+    pub text: String,
+    numbers: Option<Vec<f64>>,
+}
+
+impl Color {
+    pub fn of(rgba: &str) -> Self {
+        let numbers = pieces(rgba).map(|piece| whole(strtod(piece))).collect();
+        Color { text: rgba.to_owned(), numbers }
+    }
+
+    /// Whether nobody sees a difference: of half a step of 8 bits, as texts are rounded.
+    pub fn is_same(&self, other: &Color) -> bool {
+        const LEAST: f64 = 0.5 / 255.0;
+        match (&self.numbers, &other.numbers) {
+            (Some(one), Some(other)) => {
+                let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= LEAST;
+                one.len() == other.len() && one.iter().zip(other).all(is_near)
+            }
+            _ => self.text == other.text,
+        }
+    }
+}
+
 /// What a material has itself.
 pub struct Look {
-    rgba: String,
+    color: Color,
     texture: String,
 }
 
@@ -223,25 +311,19 @@ impl Look {
     pub fn of(material: Node<'_>) -> Option<Look> {
         let of = |element: &str, name: &str| material.child(element)?.value(name);
         let (rgba, texture) = (of("color", "rgba"), of("texture", "filename"));
-        let text = |value: Option<&str>| value.unwrap_or_default().to_owned();
-        rgba.or(texture).map(|_| Look { rgba: text(rgba), texture: text(texture) })
+        rgba.or(texture)?;
+        let color = Color::of(rgba.unwrap_or_default());
+        Some(Look { color, texture: texture.unwrap_or_default().to_owned() })
     }
 
     /// Says that a material is read as another one of its name, if that looks otherwise.
     pub fn compare(read: Option<&Look>, material: Node<'_>, part: &Part, effects: &mut Effects) {
         let (Some(read), Some(own)) = (read, Look::of(material)) else { return };
-        if read.texture != own.texture || !is_same(&read.rgba, &own.rgba) {
+        if read.texture != own.texture || !read.color.is_same(&own.color) {
             let name = material.value("name").unwrap_or_default();
-            let words = if read.rgba.is_empty() { &read.texture } else { &read.rgba };
+            let rgba = &read.color.text;
+            let words = if rgba.is_empty() { &read.texture } else { rgba };
             effects.read_as(material, part, Fault::not_unique("material", name), &**words);
         }
     }
-}
-
-/// Whether nobody sees a difference of two colours: of half a step of 8 bits, as texts are rounded.
-pub fn is_same(one: &str, other: &str) -> bool {
-    const LEAST: f64 = 0.5 / 255.0;
-    let numbers = |text| pieces(text).map(|piece| whole(strtod(piece))).collect::<Option<Vec<_>>>();
-    let (Some(a), Some(b)) = (numbers(one), numbers(other)) else { return one == other };
-    a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= LEAST)
 }

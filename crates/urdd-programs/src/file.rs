@@ -44,7 +44,7 @@ pub struct File<'a> {
     /// What parsers make of it that keep to the standard ([`trees`]), if it is UTF-8.
     pub(crate) strict: Option<Parsed<[Tree<'a>; 2]>>,
     meshes: &'a dyn Fn(&str) -> Mesh,
-    unknown: [OnceCell<Vec<Found>>; 3],
+    unknown: [OnceCell<(Vec<Found>, usize)>; 3],
 }
 
 impl<'a> File<'a> {
@@ -57,7 +57,7 @@ impl<'a> File<'a> {
     }
 
     /// What programs ignore that take such names for those of elements.
-    pub(crate) fn unknown(&self, names: Names) -> &[Found] {
+    pub(crate) fn unknown(&self, names: Names) -> &(Vec<Found>, usize) {
         let found = &self.unknown[names as usize];
         found.get_or_init(|| unknown::find(&self.document, names))
     }

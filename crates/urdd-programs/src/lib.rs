@@ -23,7 +23,7 @@ mod unknown;
 mod urdfdom;
 mod usd;
 
-pub use effect::{Deed, Effect, Effects, Part};
+pub use effect::{Deed, Effect, Effects, KEPT, Part};
 pub use fault::{Fault, MASSLESS, MASSLESS_WITH_OTHERS};
 pub use file::File;
 pub use mesh::formats::{ColladaFacts, Measures, ObjFacts, StlFacts};

@@ -1,6 +1,6 @@
 //! The programs.
 
-use crate::effect::Effects;
+use crate::effect::{Deed, Effects};
 use crate::file::{About, File};
 use crate::{drake, mujoco, pinocchio, pybullet, sdformat, three, urdfdom, usd};
 
@@ -101,8 +101,9 @@ impl Program {
         // What a reader refuses is among the effects.
         let _ = (self.about().read)(file, &mut effects);
         if effects.loads() {
-            let ignored = file.unknown(self.about().names);
+            let (ignored, cut) = file.unknown(self.about().names);
             ignored.iter().for_each(|found| found.add(self.about().never, &mut effects));
+            effects.count(*cut, Deed::Drops);
         }
         effects
     }

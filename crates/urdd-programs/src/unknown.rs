@@ -6,7 +6,7 @@ use std::collections::HashSet;
 
 use urdd_xml::element::{KNOWN, Known, of};
 
-use crate::effect::{At, Effects, Part};
+use crate::effect::{At, Effects, KEPT, Part};
 use crate::fault::Fault;
 use crate::tinyxml::{Document, MOST_DEPTH};
 use crate::tree::Node;
@@ -56,10 +56,10 @@ impl Found {
     }
 }
 
-/// What programs ignore that take such names for those of elements.
-pub fn find(document: &Document, names: Names) -> Vec<Found> {
-    let Ok(tree) = document.within(MOST_DEPTH) else { return Vec::new() };
-    let mut finder = Finder { names, inside: Vec::new(), found: Vec::new() };
+/// What programs ignore that take such names for those of elements, and the number of what is not kept.
+pub fn find(document: &Document, names: Names) -> (Vec<Found>, usize) {
+    let Ok(tree) = document.within(MOST_DEPTH) else { return (Vec::new(), 0) };
+    let mut finder = Finder { names, inside: Vec::new(), found: Vec::new(), cut: 0 };
     let mut robots = tree.tops().filter(|top| top.name() == "robot");
     if let (Some(robot), Some(known)) = (robots.next(), of("robot")) {
         let place = Place { part: "robot".into(), owner: "robot".into() };
@@ -69,7 +69,7 @@ pub fn find(document: &Document, names: Names) -> Vec<Found> {
     if let Some(second) = robots.next() {
         finder.drop(second, "robot/?".into(), Fault::Repeated("robot".into()), &[]);
     }
-    finder.found
+    (finder.found, finder.cut)
 }
 
 /// The known elements in an element, found when they are asked for.
@@ -88,6 +88,8 @@ struct Finder {
     /// The elements that are open, but for the robot.
     inside: Vec<&'static str>,
     found: Vec<Found>,
+    /// Number of what is not kept.
+    cut: usize,
 }
 
 impl Finder {
@@ -241,6 +243,10 @@ impl Finder {
     }
 
     fn drop(&mut self, at: impl At, part: Part, fault: Fault, meant: &[&'static str]) {
+        if self.found.len() == KEPT {
+            self.cut += 1;
+            return;
+        }
         let meant = [&self.inside, meant].concat();
         self.found.push(Found { at: at.at(), part, fault, meant });
     }

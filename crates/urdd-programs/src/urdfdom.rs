@@ -109,7 +109,7 @@ pub fn model<'t>(
 /// Before 5.1 messages are formats of `printf`: a text in one that has `%s` or `%n` crashes.
 fn formats(effects: &mut Effects) -> Reading<()> {
     let is_format = |text: &str| text.contains("%s") || text.contains("%n");
-    let found = effects.0.iter().find(|effect| {
+    let found = effects.kept().iter().find(|effect| {
         let is_named = effect.fault == Fault::Other(NO_COLOR) && is_format(&effect.part);
         is_named || is_format(&effect.fault.to_string())
     });

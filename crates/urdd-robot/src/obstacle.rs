@@ -15,6 +15,9 @@ use urdd_geometry::oriented_box::corners;
 use urdd_geometry::primitives::{Primitive, Prism};
 use urdd_geometry::vector::norm;
 
+/// Maximum number of points of a cloud, and of heights of a field: they take about a gigabyte.
+pub const MAX_POINTS: usize = 10_000_000;
+
 /// A body that a robot must not touch, or that a link carries: [`Proximity::attach`](crate::Proximity::attach). Clones
 /// share its shapes.
 #[derive(Debug, Clone)]
@@ -166,7 +169,7 @@ impl World {
 }
 
 /// Each constructor fails with [`RobotError::Obstacle`] if a size is not finite, negative or larger than 1e9 m, if a point or
-/// the pose is not finite or farther than 1e9 m from the origin, or if there are no points.
+/// the pose is not finite or farther than 1e9 m from the origin, or if there are no points or more than [`MAX_POINTS`].
 impl Obstacle {
     /// A box: the pose of its centre and axes, and its half extents, in metres.
     pub fn cuboid(
@@ -243,6 +246,7 @@ impl Obstacle {
         points: &[[f64; 3]],
         radius: f64,
     ) -> Result<Self, RobotError> {
+        Self::check_count(name, points.len())?;
         Self::whole(name, pose, radius, Form::Parts, || {
             Part::of_copies([0.0; 3], radius, points.to_vec())
         })
@@ -265,6 +269,7 @@ impl Obstacle {
         for size in [cell[0], cell[1], thickness] {
             check_size(name, size)?;
         }
+        Self::check_count(name, heights.len())?;
         if columns == 0 || !heights.len().is_multiple_of(columns) {
             let reason = format!("{} heights do not divide into {columns} columns", heights.len());
             return Err(RobotError::Obstacle { name: name.to_owned(), reason });
@@ -276,6 +281,20 @@ impl Obstacle {
         };
         let centres = heights.iter().enumerate().map(centre).collect();
         Self::whole(name, pose, 0.0, Form::Parts, || Part::of_copies(half, 0.0, centres))
+    }
+
+    /// Checks the number of points of a cloud, or of heights of a field, before memory is taken for them.
+    ///
+    /// # Errors
+    /// [`RobotError::Obstacle`] if there are more than [`MAX_POINTS`].
+    pub fn check_count(name: &str, count: usize) -> Result<(), RobotError> {
+        if count <= MAX_POINTS {
+            return Ok(());
+        }
+        let reason = format!(
+            "there are {count} points, and {MAX_POINTS} are allowed; leave out those that are near others, or make several obstacles"
+        );
+        Err(RobotError::Obstacle { name: name.to_owned(), reason })
     }
 
     /// The same body with its frame at another pose. Nothing is prepared again: the two share their shapes. The frame of

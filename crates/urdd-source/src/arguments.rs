@@ -251,6 +251,7 @@ impl<'a> Texts<'a> {
         let mut values: Option<Vec<String>> = None;
         let texts = found.texts.iter().filter_map(|place| self.named.get(*place));
         for (text, folder) in texts {
+            self.gate.account().charge(text.len())?;
             for path in text.split(['\'', '"']).filter(|path| path.contains(&mark)) {
                 self.gate.account().charge(LOOK_UP + text.len())?;
                 let found = self.fitting(path.trim(), folder, &mark)?;
@@ -283,8 +284,10 @@ impl<'a> Texts<'a> {
             let Some(default) = default.filter(|default| default.len() < MAX_VALUES) else {
                 return Ok(Vec::new());
             };
-            self.gate.account().charge(rest.len() + default.len())?;
-            rest = rest.replace(&format!("$(arg {other})"), default);
+            let mark = format!("$(arg {other})");
+            let uses = rest.matches(&mark).count();
+            self.gate.account().charge(rest.len() + uses * default.len())?;
+            rest = rest.replace(&mark, default);
         }
         if !rest.contains('/') && base == folder || rest.replace(mark, "").contains('$') {
             return Ok(Vec::new());

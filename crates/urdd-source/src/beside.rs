@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use urdd_directory::limits::{MAX_SRDF_BYTES, MAX_TOML_BYTES};
+use urdd_directory::limits::{MAX_SETUP_BYTES, MAX_SRDF_BYTES};
 use urdd_format::named_configurations::ConfigurationEdit;
 
 use crate::gate::Gate;
@@ -37,7 +37,7 @@ impl Beside {
         let at = |ending: &str, limit| companion(&urdf.with_extension(ending), limit, gate);
         Beside {
             srdf: at("srdf", MAX_SRDF_BYTES),
-            setup: at("export.toml", MAX_TOML_BYTES),
+            setup: at("export.toml", MAX_SETUP_BYTES),
             import: None,
         }
     }

@@ -9,8 +9,8 @@ use urdd_format::short::Short;
 
 use crate::beside::text;
 use crate::files::MAX_SOURCE_BYTES;
+use crate::folder_facts::FolderFacts;
 use crate::gate::Gate;
-use crate::installed::{self, Installed};
 use crate::macros::{self, Content, Macro, MacroFile};
 use crate::settings::Settings;
 
@@ -72,13 +72,20 @@ pub fn describe(
     packages: &BTreeMap<String, PathBuf>,
     settings: &Settings,
 ) -> Description {
+    let facts = settings.folder_facts();
+    let account = settings.run_account();
+    let settings = &Settings {
+        facts: Some(facts.clone()),
+        account: Some(account.clone()),
+        ..settings.clone()
+    };
     let mut texts = Texts {
         settings,
         packages,
-        account: Account::new(&settings.cancellation),
+        facts,
+        account,
         looked_up: HashMap::new(),
         gates: HashMap::new(),
-        installed: HashMap::new(),
         known: BTreeMap::new(),
     };
     let keys: Vec<PathBuf> = paths.iter().map(|path| texts.key(path)).collect();
@@ -101,9 +108,12 @@ pub fn describe(
     let included = included.map(|(file, _)| file.path.clone()).collect();
     let mut uncalled = uncalled(&texts, paths, &keys);
     // A package without a robot has its macros for others.
-    let package = |path: &Path| packages.values().filter(|folder| path.starts_with(folder)).max();
+    let folders: HashSet<&Path> = packages.values().map(PathBuf::as_path).collect();
+    let package = |path: &Path| {
+        path.ancestors().find_map(|above| folders.get(above).map(|folder| folder.to_path_buf()))
+    };
     let robots = files.iter().filter(|file| file.kind == FileKind::Robot);
-    let robots: HashSet<Option<&PathBuf>> = robots.map(|file| package(&file.path)).collect();
+    let robots: HashSet<Option<PathBuf>> = robots.map(|file| package(&file.path)).collect();
     uncalled.retain(|(path, _)| robots.contains(&package(path)));
     Description { files, included, uncalled }
 }
@@ -118,11 +128,11 @@ struct Text {
 struct Texts<'a> {
     settings: &'a Settings,
     packages: &'a BTreeMap<String, PathBuf>,
+    facts: FolderFacts,
     account: Account,
     looked_up: HashMap<(String, PathBuf), Option<PathBuf>>,
     /// By the folder of the file that includes others.
     gates: HashMap<PathBuf, Gate>,
-    installed: HashMap<PathBuf, Installed>,
     known: BTreeMap<PathBuf, Result<Text, Reason>>,
 }
 
@@ -173,10 +183,9 @@ impl Texts<'_> {
                     let (package, path) = (package.trim(), rest.trim_start_matches('/'));
                     let folder = self.package(package, folder)?;
                     let files = &self.settings.files;
-                    let of = || installed::installed(&folder, files);
-                    let installed = self.installed.entry(folder.clone()).or_insert_with(of);
-                    let is_there = |path: &String| files.is_file(&folder.join(path));
-                    let source = installed.sources(path).find(is_there);
+                    let is_there = |path: &str| files.is_file(&folder.join(path));
+                    let installed = self.facts.installed(&folder);
+                    let source = installed.source(path, &self.account, is_there).ok()?;
                     let path = folder.join(source.as_deref().unwrap_or(path));
                     (Some(folder), path)
                 }
@@ -204,7 +213,7 @@ impl Texts<'_> {
         }
         self.account.charge(LOOK_UP).ok()?;
         let files = &self.settings.files;
-        let folders = self.settings.packages.folders(name, folder, false, files);
+        let folders = self.settings.packages.folders(name, folder, false, &self.facts);
         let found = folders.into_iter().find(|folder| files.is_dir(folder));
         self.looked_up.insert(key, found.clone());
         found

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
+use urdd_directory::account::Account;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::file_type::FileType;
 use urdd_directory::path;
@@ -75,7 +76,7 @@ pub fn descriptions(files: &Files) -> Vec<Dropped> {
         DroppedKind::Imported(format) => Some((file.as_path(), RobotFile::Imported(*format))),
         DroppedKind::Urdf | DroppedKind::Xacro => None,
     });
-    let mut parts = parts_of_others(imported, files);
+    let mut parts = parts_of_others(imported, files, &Account::default());
     let is_xacro = |(_, kind): &&(PathBuf, DroppedKind)| *kind == DroppedKind::Xacro;
     let xacro: Vec<PathBuf> = found.iter().filter(is_xacro).map(|(file, _)| file.clone()).collect();
     let settings = Settings { files: files.clone(), ..Settings::default() };

@@ -166,6 +166,15 @@ impl Files {
         Files::Memory(Arc::new(held))
     }
 
+    /// Whether these are the same files, and not only equal ones.
+    pub(crate) fn is_same(&self, other: &Files) -> bool {
+        match (self, other) {
+            (Files::Disk, Files::Disk) => true,
+            (Files::Memory(one), Files::Memory(other)) => Arc::ptr_eq(one, other),
+            (Files::Disk, Files::Memory(_)) | (Files::Memory(_), Files::Disk) => false,
+        }
+    }
+
     /// Reads a regular file of at most `limit` bytes.
     ///
     /// # Errors

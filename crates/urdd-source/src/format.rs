@@ -39,13 +39,14 @@ pub(crate) fn by_content(file: &Path, files: &Files) -> Option<RobotFile> {
 pub(crate) fn parts_of_others<'p>(
     sources: impl Iterator<Item = (&'p Path, RobotFile)>,
     files: &Files,
+    account: &Account,
 ) -> HashSet<PathBuf> {
     let usd = RobotFile::Imported(Format::Usd);
     let (usds, others): (Vec<_>, Vec<_>) = sources.partition(|(_, is)| *is == usd);
     let usds: Vec<&Path> = usds.into_iter().map(|(source, _)| source).collect();
     let others = others.into_iter();
     let others = others.flat_map(|(source, is)| parts_of(source, is, files).unwrap_or_default());
-    others.chain(layers_of_others(&usds, files)).collect()
+    others.chain(layers_of_others(&usds, files, account)).collect()
 }
 
 fn parts_of(source: &Path, is: RobotFile, files: &Files) -> Option<Vec<PathBuf>> {
@@ -89,8 +90,12 @@ struct Known {
 
 /// The USDs among some that are no robots: layers of others, and those without bodies. What cannot be read stays: it is named
 /// where it is imported.
-pub(crate) fn layers_of_others(usds: &[&Path], files: &Files) -> HashSet<PathBuf> {
-    let known = |path: &&Path| Some((files.canonicalize(path).ok()?, known(path, files)?));
+pub(crate) fn layers_of_others(
+    usds: &[&Path],
+    files: &Files,
+    account: &Account,
+) -> HashSet<PathBuf> {
+    let known = |path: &&Path| Some((files.canonicalize(path).ok()?, known(path, files, account)?));
     let all: HashMap<PathBuf, Known> = usds.iter().filter_map(known).collect();
     let mut users: HashMap<&Path, Vec<&Path>> = HashMap::new();
     for (user, known) in &all {
@@ -114,12 +119,11 @@ pub(crate) fn layers_of_others(usds: &[&Path], files: &Files) -> HashSet<PathBuf
     all.keys().filter(is_part).cloned().collect()
 }
 
-fn known(path: &Path, files: &Files) -> Option<Known> {
+fn known(path: &Path, files: &Files, account: &Account) -> Option<Known> {
     let bytes: Arc<[u8]> = files.read(path, MAX_DOCUMENT_BYTES).ok()?.into();
-    let account = Account::default();
     account.deposit(bytes.len());
     let name = path.file_name()?.to_string_lossy();
-    let outline = outline(&name, &mut OneFile(bytes, account)).ok()?;
+    let outline = outline(&name, &mut OneFile(bytes, account.clone())).ok()?;
     let folder = path.parent()?;
     let names = outline.names.iter().filter_map(|name| files.canonicalize(&folder.join(name)).ok());
     Some(Known { names: names.collect(), has_bodies: outline.has_bodies })

@@ -68,7 +68,7 @@ impl Gate {
             roots: Roots::new(folder, settings),
             is_of_project: false,
             project: None,
-            account: Account::new(&settings.cancellation),
+            account: settings.run_account(),
             seen: Mutex::default(),
         }
     }
@@ -106,7 +106,7 @@ impl Gate {
     /// # Errors
     /// If there is none, or it is outside of the folders.
     pub fn find_from(&self, name: &str, folder: &Path) -> Result<FoundMesh, NotFound> {
-        let missing = match resolve(name, folder, &self.packages, &self.roots) {
+        let missing = match resolve(name, folder, &self.packages, &self.roots, &self.account) {
             Ok(found) => {
                 if let (true, Place::Package(name, folder)) = (self.is_of_project, &found.place) {
                     self.seen().opened.insert(folder.clone(), name.clone());
@@ -137,7 +137,7 @@ impl Gate {
     /// The folder that a file (symbolic links resolved) may be read from, where no package is named.
     fn place(&self, file: &Path) -> Option<Place> {
         let seen = self.seen();
-        let package = seen.opened.iter().find(|(folder, _)| file.starts_with(folder));
+        let package = file.ancestors().find_map(|above| seen.opened.get_key_value(above));
         match package {
             Some((folder, name)) => Some(Place::Package(name.clone(), folder.clone())),
             None => self.roots.place(file, None),

@@ -1,15 +1,19 @@
 //! Where the files of a package are when it is installed: what its CMakeLists.txt or setup.py installs below `share/NAME`, as
 //! far as it says so literally. `$(find NAME)` and `package://NAME` mean that tree. Nothing is run.
 
+use std::collections::HashMap;
 use std::path::Path;
 
-use urdd_directory::limits::MAX_MANIFEST_BYTES;
+use urdd_directory::account::{Account, AccountError};
+use urdd_directory::limits::{MAX_MANIFEST_BYTES, MAX_NAME_BYTES};
 
 use crate::files::Files;
 use crate::suggested::{Token, tokens};
 
 /// Maximum length of a value that a variable stands for, in bytes: it may be put in very often.
 pub const MAX_VALUE: usize = 255;
+/// Charged for a file that is looked for.
+pub const LOOK_UP: usize = 1 << 10;
 
 /// A file or folder that is installed. Paths are relative, with forward slashes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,40 +28,58 @@ pub struct Rule {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Installed {
     pub rules: Vec<Rule>,
-    /// The first statement that was not understood: its file, and the line.
+    by_target: HashMap<String, Vec<usize>>,
+    /// The first statement that was not understood, or that is beyond [`MAX_RULES`]: its file, and the line.
     pub unknown: Option<(&'static str, u32)>,
 }
 
 impl Installed {
-    /// Adds what is installed in a folder below the prefix of the installation; `own` is the package's, as `share/NAME`.
-    /// Nothing for another package, or for programs and libraries.
-    pub(super) fn add(&mut self, source: &str, destination: &str, name: Option<&str>, own: &str) {
+    /// Adds files that are installed in a folder below the prefix of the installation; `own` is the package's, as `share/NAME`.
+    /// `name` is that of the only one, if it gets another. Nothing for another package, or for programs and libraries.
+    fn add<'s>(
+        &mut self,
+        sources: impl IntoIterator<Item = &'s String>,
+        destination: &str,
+        name: Option<&str>,
+        own: &str,
+        at: (&'static str, u32),
+    ) {
         let Some(destination) = plain(destination) else { return };
         let inside = match destination.strip_prefix(own) {
             Some("") => Some(""),
             Some(rest) => rest.strip_prefix('/'),
             None => None,
         };
-        let (Some(source_path), Some(inside)) = (plain(source), inside) else { return };
-        let last = source_path.rsplit('/').next().unwrap_or_default();
-        // The content of a folder, where its name ends in a slash.
-        let last = match name {
-            Some(name) => name,
-            None if source.ends_with('/') || source_path.is_empty() => "",
-            None => last,
-        };
-        let slash = if inside.is_empty() || last.is_empty() { "" } else { "/" };
-        self.rules.push(Rule { target: format!("{inside}{slash}{last}"), source: source_path });
+        let Some(inside) = inside else { return };
+        for source in sources {
+            let Some(source_path) = plain(source) else { continue };
+            if self.rules.len() == MAX_RULES {
+                self.unknown.get_or_insert(at);
+                return;
+            }
+            let last = source_path.rsplit('/').next().unwrap_or_default();
+            // The content of a folder, where its name ends in a slash.
+            let last = match name {
+                Some(name) => name,
+                None if source.ends_with('/') || source_path.is_empty() => "",
+                None => last,
+            };
+            let slash = if inside.is_empty() || last.is_empty() { "" } else { "/" };
+            let target = format!("{inside}{slash}{last}");
+            self.by_target.entry(target.clone()).or_default().push(self.rules.len());
+            self.rules.push(Rule { target, source: source_path });
+        }
     }
 
-    /// That the package in a folder says in words which are not understood what it installs.
-    pub fn by_variables(&self, folder: &Path) -> Option<String> {
+    /// That it is not known what the package in a folder installs, and why.
+    pub fn is_not_known(&self, folder: &Path) -> Option<String> {
         let (file, line) = self.unknown?;
         let file = folder.join(file);
-        Some(format!(
-            "{}:{line} installs files by variables that only a build knows",
-            file.display()
-        ))
+        let why = match self.rules.len() < MAX_RULES {
+            true => "installs files by variables that only a build knows",
+            false => "installs more files and folders one by one than are looked at",
+        };
+        Some(format!("{}:{line} {why}", file.display()))
     }
 
     /// Whether everything is installed where it is in the sources.
@@ -65,22 +87,48 @@ impl Installed {
         self.rules.iter().all(|rule| rule.source == rule.target)
     }
 
-    /// The paths in the package that a path in `share/NAME` may be.
-    pub fn sources<'a>(&'a self, path: &'a str) -> impl Iterator<Item = String> + 'a {
-        self.rules.iter().filter_map(move |rule| {
-            let rest = match path.strip_prefix(&rule.target)? {
-                "" => return Some(rule.source.clone()),
-                rest if rule.target.is_empty() => rest,
-                rest => rest.strip_prefix('/')?,
-            };
-            let slash = if rule.source.is_empty() { "" } else { "/" };
-            Some(format!("{}{slash}{rest}", rule.source))
-        })
+    /// The path in the package that a path in `share/NAME` is: the first that is there of those that it may be. Each that is
+    /// looked for is charged.
+    ///
+    /// # Errors
+    /// If the account does not have it.
+    pub fn source(
+        &self,
+        path: &str,
+        account: &Account,
+        is_there: impl Fn(&str) -> bool,
+    ) -> Result<Option<String>, AccountError> {
+        // No file has a longer name.
+        if path.len() > MAX_NAME_BYTES {
+            return Ok(None);
+        }
+        let ends = path.match_indices('/').map(|(end, _)| (&path[..end], &path[end + 1..]));
+        let ways = ends.chain([("", path), (path, "")]);
+        let mut rules: Vec<(usize, &str)> = Vec::new();
+        for (target, rest) in ways {
+            let known = self.by_target.get(target).into_iter().flatten();
+            rules.extend(known.map(|rule| (*rule, rest)));
+        }
+        rules.sort_unstable();
+        rules.dedup_by_key(|(rule, _)| *rule);
+        for (rule, rest) in rules {
+            account.charge(LOOK_UP)?;
+            let source = &self.rules[rule].source;
+            let slash = if source.is_empty() || rest.is_empty() { "" } else { "/" };
+            let path = format!("{source}{slash}{rest}");
+            if is_there(&path) {
+                return Ok(Some(path));
+            }
+        }
+        Ok(None)
     }
 }
 
-/// A path without `.` and doubled slashes; `None` if it leads out of its folder, or is a pattern.
+/// A path without `.` and doubled slashes; `None` if it leads out of its folder, is a pattern, or longer than that of a file.
 fn plain(path: &str) -> Option<String> {
+    if path.len() > MAX_NAME_BYTES {
+        return None;
+    }
     let parts: Vec<&str> = path.split('/').filter(|part| !matches!(*part, "" | ".")).collect();
     let is_odd = |part: &&str| *part == ".." || part.contains(['*', '$', '\\', ':']);
     (!parts.iter().any(is_odd)).then(|| parts.join("/"))
@@ -100,7 +148,14 @@ pub fn installed(folder: &Path, files: &Files) -> Installed {
         (None, Some(text)) => by_setup_py(&text),
         (None, None) => Installed::default(),
     };
-    installed.rules.truncate(MAX_RULES);
+    // What is not there is the source of nothing.
+    if matches!(files, Files::Disk) {
+        installed.rules.retain(|rule| folder.join(&rule.source).exists());
+        installed.by_target.clear();
+        for (place, rule) in installed.rules.iter().enumerate() {
+            installed.by_target.entry(rule.target.clone()).or_default().push(place);
+        }
+    }
     installed
 }
 
@@ -177,9 +232,8 @@ fn by_cmake(text: &str) -> Installed {
             installed.unknown.get_or_insert((CMAKE, line));
         }
         let Some(destination) = destination.filter(|one| !one.contains('$')) else { continue };
-        for name in names.iter().filter(|name| !name.contains('$')) {
-            installed.add(name, &destination, rename.as_deref(), &own);
-        }
+        let names = names.iter().filter(|name| !name.contains('$'));
+        installed.add(names, &destination, rename.as_deref(), &own, (CMAKE, line));
     }
     installed
 }
@@ -241,13 +295,16 @@ const SETUP_PY: &str = "setup.py";
 fn by_setup_py(text: &str) -> Installed {
     let mut installed = Installed::default();
     let Some((before, data)) = text.split_once("data_files") else { return installed };
-    let variables = before.lines().filter_map(assignment).collect();
-    let name = ["package_name", "PACKAGE_NAME"].iter().find_map(|word| value(&variables, word));
+    let mut variables = Variables::new();
+    for (name, value) in before.lines().filter_map(assignment) {
+        variables.entry(name).or_insert(value);
+    }
+    let name = ["package_name", "PACKAGE_NAME"].iter().find_map(|word| variables.get(*word));
     let literal = || {
         let (_, rest) = text.split_once("name=")?;
         assignment(&format!("name={}", rest.lines().next()?.trim_end_matches(',')))
     };
-    let Some(name) = name.map(str::to_owned).or_else(|| Some(literal()?.1)) else {
+    let Some(name) = name.cloned().or_else(|| Some(literal()?.1)) else {
         return installed;
     };
     let line = u32::try_from(before.lines().count().max(1)).unwrap_or(u32::MAX);
@@ -262,9 +319,7 @@ fn by_setup_py(text: &str) -> Installed {
             installed.unknown = Some((SETUP_PY, line));
             return installed;
         };
-        for source in sources {
-            installed.add(&source, &destination, None, &format!("share/{name}"));
-        }
+        installed.add(&sources, &destination, None, &format!("share/{name}"), (SETUP_PY, line));
         reader.skip(',');
     }
     if !reader.skip(']') {
@@ -273,11 +328,8 @@ fn by_setup_py(text: &str) -> Installed {
     installed
 }
 
-type Variables = Vec<(String, String)>;
-
-fn value<'v>(variables: &'v Variables, name: &str) -> Option<&'v str> {
-    variables.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
-}
+/// Values by names, the first of each.
+type Variables = HashMap<String, String>;
 
 /// A line that gives a name a literal text.
 fn assignment(line: &str) -> Option<(String, String)> {
@@ -345,7 +397,7 @@ impl SetupPyReader<'_> {
             name = word.clone();
         }
         if !self.skip('(') {
-            return value(&self.variables, &name).map(str::to_owned);
+            return self.variables.get(&name).cloned();
         }
         if !matches!(name.as_str(), "join" | "glob") {
             return None;

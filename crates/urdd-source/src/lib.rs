@@ -12,6 +12,7 @@ pub mod dropped;
 mod error;
 pub mod fault;
 mod files;
+mod folder_facts;
 mod format;
 pub mod gate;
 mod inspect;
@@ -41,14 +42,15 @@ pub use decode::{
 };
 pub use error::{SourceError, XacroFault};
 pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};
+pub use folder_facts::FolderFacts;
 pub use format::{Format, RobotFile, format_of, robot_file};
 pub use inspect::{Inspected, SideFile, inspect_alone, is_image, is_plain_mesh, lines};
 pub use load::{
     Source, SourceRobot, SourceText, file_name, load, load_text, load_with, read_source, read_urdf,
     stem,
 };
-pub use meshes::{MissingMesh, NamedMesh, SourceMesh, SourceMeshes, named};
-pub use packages::{Around, NearPackage, PackagePathError, Packages, package_name};
+pub use meshes::{MissingMesh, NamedMesh, SourceMesh, SourceMeshes, mesh_files, named};
+pub use packages::{Around, NearPackage, PackagePathError, Packages};
 pub use resolve::{FoundMesh, NotFound, OtherCase};
 pub use roots::Place;
 pub use settings::{

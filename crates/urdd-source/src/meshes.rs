@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use urdd_directory::account::AccountError;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::{Geometry, UrdfModule};
 use urdd_geometry::read::Scene;
@@ -14,6 +15,7 @@ use crate::error::SourceError;
 use crate::gate::Gate;
 use crate::load::{Source, load, load_xml};
 use crate::loops::Said;
+use crate::note::SourcePlace;
 use crate::packages::NearPackage;
 use crate::resolve::{FoundMesh, NotFound, OtherCase};
 use crate::settings::Settings;
@@ -63,9 +65,15 @@ pub struct MissingMesh {
     pub no_package: Option<String>,
     /// The package of a near name that is there instead.
     pub near_package: Option<Box<NearPackage>>,
+    /// Why nobody looked to the end: then the rest is not known.
+    pub stopped: Option<AccountError>,
 }
 
 impl MissingMesh {
+    fn cost(&self) -> usize {
+        size_of::<MissingMesh>() + self.reason.len()
+    }
+
     /// Whether a package of a near name has the file.
     pub fn is_in_near_package(&self) -> bool {
         self.near_package.as_ref().is_some_and(|near| near.has_file)
@@ -86,6 +94,7 @@ impl From<NotFound> for MissingMesh {
             outside: why.outside,
             no_package: why.no_package,
             near_package: why.near_package,
+            stopped: why.stopped,
         }
     }
 }
@@ -96,18 +105,29 @@ impl SourceMeshes {
     /// # Errors
     /// If it cannot be read or is not a valid robot. A missing mesh is not an error.
     pub fn open(path: &Path, settings: &Settings) -> Result<SourceMeshes, SourceError> {
-        Ok(SourceMeshes::of(load(path, settings)?, settings, None))
+        SourceMeshes::of(load(path, settings)?, settings, None)
     }
 
     /// Finds the mesh files of a URDF. A missing mesh is not an error. `imported` is what its import writes beside it, if it has one.
-    pub fn of(source: Source, settings: &Settings, imported: Option<Beside>) -> SourceMeshes {
+    ///
+    /// # Errors
+    /// If it takes more to find them than the account of the run has.
+    pub fn of(
+        source: Source,
+        settings: &Settings,
+        imported: Option<Beside>,
+    ) -> Result<SourceMeshes, SourceError> {
         let gate = Gate::new(&source.folder, settings);
-        let mut found: BTreeMap<&str, Result<FoundMesh, MissingMesh>> = BTreeMap::new();
+        let found = mesh_files(&source, &gate)?;
+        let found = found.into_iter().map(|(name, of)| (name, of.map_err(MissingMesh::from)));
+        let found: BTreeMap<&str, Result<FoundMesh, MissingMesh>> = found.collect();
         let mut meshes = Vec::new();
-        for mesh in named(&source.reading.robot) {
-            let found = found.entry(mesh.filename);
-            let found =
-                found.or_insert_with(|| gate.find(mesh.filename).map_err(MissingMesh::from));
+        for (mesh, place) in named(&source.reading.robot).into_iter().zip(&source.mesh_places) {
+            let found = &found[mesh.filename];
+            // One file may have very many names, and each element has its path.
+            let path = |found: &FoundMesh| found.file.as_os_str().len();
+            let cost = found.as_ref().map_or_else(MissingMesh::cost, path);
+            gate.account().charge(cost).map_err(|why| unfinished(why, place))?;
             meshes.push(SourceMesh {
                 link: mesh.link,
                 geometry: mesh.geometry,
@@ -118,7 +138,7 @@ impl SourceMeshes {
         }
         let found = found.into_values().flatten();
         let found = found.map(|found| (found.file.clone(), found)).collect();
-        SourceMeshes {
+        Ok(SourceMeshes {
             text: String::from_utf8_lossy(&source.carried).into_owned(),
             robot: source.reading.robot,
             loops: source.loops,
@@ -126,7 +146,7 @@ impl SourceMeshes {
             gate,
             found,
             imported,
-        }
+        })
     }
 
     /// What stands beside the description at the path that it was opened at, or what its import writes there.
@@ -147,7 +167,7 @@ impl SourceMeshes {
         // An editor's file may be in a folder that is not there yet, or not any more: then its meshes are missing.
         let folder = settings.files.canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
         let source = load_xml(xml, shown, folder)?;
-        Ok(SourceMeshes::of(source, settings, None))
+        SourceMeshes::of(source, settings, None)
     }
 
     /// Reads a file of [`SourceMeshes::meshes`].
@@ -164,6 +184,36 @@ impl SourceMeshes {
     /// The reason why there is none.
     pub fn find(&self, filename: &str) -> Result<PathBuf, MissingMesh> {
         Ok(self.gate.find(filename)?.file)
+    }
+}
+
+/// The mesh files of a URDF by their names, or why there is none.
+///
+/// # Errors
+/// If it takes more to find them than the account of the run has.
+pub fn mesh_files<'s>(
+    source: &'s Source,
+    gate: &Gate,
+) -> Result<BTreeMap<&'s str, Result<FoundMesh, NotFound>>, SourceError> {
+    gate.account().deposit(source.carried.len());
+    let mut files: BTreeMap<&str, Result<FoundMesh, NotFound>> = BTreeMap::new();
+    for (mesh, place) in named(&source.reading.robot).into_iter().zip(&source.mesh_places) {
+        let found = files.entry(mesh.filename).or_insert_with(|| gate.find(mesh.filename));
+        let stopped = found.as_ref().err().and_then(|missing| missing.stopped);
+        stopped.map_or(Ok(()), |why| Err(unfinished(why, place)))?;
+    }
+    Ok(files)
+}
+
+fn unfinished(why: AccountError, place: &SourcePlace) -> SourceError {
+    match why {
+        AccountError::Cancelled(why) => why.into(),
+        AccountError::Overdrawn(_) => SourceError::Import {
+            file: place.file.clone(),
+            line: place.line,
+            column: place.column,
+            fault: format!("the mesh files of the robot cannot all be looked for: {why}"),
+        },
     }
 }
 

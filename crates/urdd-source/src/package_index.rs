@@ -1,16 +1,20 @@
 //! Packages where xacro finds them: `$(find NAME)`, with or without ROS. Each is laid out as it is installed: as a folder of
 //! links to its sources.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
 use std::{fs, io};
 
+use urdd_directory::account::Account;
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::outputs;
 use urdd_directory::target_lock::Temporary;
 
 use crate::files::Files;
-use crate::installed::{self, Installed};
+use crate::folder_facts::FolderFacts;
+use crate::installed::Installed;
 use crate::packages::{Packages, around};
 
 /// The part of ament that xacro needs, for machines without ROS.
@@ -20,14 +24,14 @@ const AMENT: &str = include_str!("ament_index_python.py");
 /// or that are beside it after them.
 pub(super) struct PackageIndex {
     prefix: Temporary,
-    linked: Vec<Linked>,
+    /// By their places there.
+    linked: HashMap<PathBuf, Linked>,
+    account: Account,
 }
 
 struct Linked {
-    /// Its place there.
-    at: PathBuf,
     folder: PathBuf,
-    installed: Installed,
+    installed: Arc<Installed>,
 }
 
 /// The layouts, by their folders in the prefix.
@@ -40,32 +44,38 @@ const NAMED: &str = "named";
 const PYTHON: &str = "python";
 
 impl PackageIndex {
-    pub(super) fn new(packages: &Packages, file: &Path) -> io::Result<Self> {
+    pub(super) fn new(
+        packages: &Packages,
+        file: &Path,
+        cancellation: &Cancellation,
+    ) -> io::Result<Self> {
         let mut index = PackageIndex {
             prefix: Temporary::begin(&std::env::temp_dir(), "packages")?,
-            linked: Vec::new(),
+            linked: HashMap::new(),
+            account: Account::new(cancellation),
         };
+        let facts = &FolderFacts::new(&Files::Disk);
         for (name, folder) in packages.given() {
-            index.add(GIVEN, name, &folder.canonicalize()?)?;
+            index.add(GIVEN, name, &folder.canonicalize()?, facts)?;
         }
         for (name, folder) in packages.installed() {
-            let _ = index.add(INSTALLED, &name, &folder);
+            let _ = index.add(INSTALLED, &name, &folder, facts);
         }
         let file = file.canonicalize()?;
         let mut found: BTreeMap<String, (&str, PathBuf)> = BTreeMap::new();
-        for one in around(file.parent().unwrap_or(&file), &Files::Disk) {
+        for one in around(file.parent().unwrap_or(&file), facts) {
             if one.has_manifest || one.is_above {
                 let layout = if one.has_manifest { FOUND } else { NAMED };
                 found.entry(one.name).or_insert((layout, one.folder));
             }
         }
         let known = packages.known().iter().map(|(name, folder)| (name.clone(), folder.clone()));
-        for (name, folder) in known.chain(packages.crawl(&Files::Disk)) {
+        for (name, folder) in known.chain(packages.crawl(facts)) {
             found.entry(name).or_insert((FOUND, folder));
         }
         for (name, (layout, folder)) in found {
             // A machine without symbolic links expands what needs no package.
-            let _ = index.add(layout, &name, &folder);
+            let _ = index.add(layout, &name, &folder, facts);
         }
         let python = index.prefix.path().join(PYTHON).join("ament_index_python");
         outputs::fresh(&python.join("__init__.py"), b"")?;
@@ -73,7 +83,13 @@ impl PackageIndex {
         Ok(index)
     }
 
-    fn add(&mut self, layout: &str, name: &str, folder: &Path) -> io::Result<()> {
+    fn add(
+        &mut self,
+        layout: &str,
+        name: &str,
+        folder: &Path,
+        facts: &FolderFacts,
+    ) -> io::Result<()> {
         let share = self.prefix.path().join(layout).join("share");
         let index = share.join("ament_index/resource_index/packages");
         let at = share.join(name);
@@ -81,12 +97,12 @@ impl PackageIndex {
             return Ok(());
         }
         outputs::fresh(&index.join(name), b"")?;
-        let installed = installed::installed(folder, &Files::Disk);
+        let installed = facts.installed(folder);
         match installed.is_as_source() {
             true => link(folder, &at)?,
             false => lay(&at, folder, &installed)?,
         }
-        self.linked.push(Linked { at, folder: folder.to_owned(), installed });
+        self.linked.insert(at, Linked { folder: folder.to_owned(), installed });
         Ok(())
     }
 
@@ -113,52 +129,56 @@ impl PackageIndex {
 
     /// A text whose paths outlive the layouts. `file://$(find NAME)` becomes `package://NAME`, which no machine's folders are in.
     pub(super) fn lasting(&self, text: &str) -> String {
-        let prefix = self.prefix.path().to_str();
-        if prefix.is_none_or(|prefix| !text.contains(prefix)) {
-            return text.to_owned();
+        let Some(prefix) = self.prefix.path().to_str() else { return text.to_owned() };
+        let prefix = format!("{prefix}/");
+        self.account.deposit(text.len());
+        let mut parts = text.split(&prefix);
+        let mut made = parts.next().unwrap_or_default().to_owned();
+        for rest in parts {
+            let Some((name, one, rest)) = self.linked(rest) else {
+                made += &prefix;
+                made += rest;
+                continue;
+            };
+            // Many write `file:///$(find NAME)`, with one slash too many.
+            let of_uri = ["file:///", "file://"].iter().find(|start| made.ends_with(**start));
+            if let Some(start) = of_uri {
+                made.truncate(made.len() - start.len());
+                made += &format!("package://{name}/{rest}");
+                continue;
+            }
+            let end = rest.find(ENDS_PATH).unwrap_or(rest.len());
+            let (path, rest) = rest.split_at(end);
+            let is_there = |path: &str| one.folder.join(path).exists();
+            // Where very many are looked for, the path is as it was written.
+            let source = one.installed.source(path, &self.account, is_there).ok().flatten();
+            let source = source.as_deref().unwrap_or(path);
+            made += &format!("{}/{source}{rest}", one.folder.display());
         }
-        self.linked.iter().fold(text.to_owned(), |text, one| one.lasting(text))
+        made
+    }
+
+    /// The package that a path below the prefix is in, its name, and the rest of the path.
+    fn linked<'t>(&self, path: &'t str) -> Option<(&'t str, &Linked, &'t str)> {
+        let mut parts = path.splitn(4, '/');
+        let (layout, share, name) = (parts.next()?, parts.next()?, parts.next()?);
+        let rest = parts.next()?;
+        let at = self.prefix.path().join(layout).join(share).join(name);
+        let one = self.linked.get(&at).filter(|one| one.folder.to_str().is_some())?;
+        Some((name, one, rest))
     }
 
     /// What to do where xacro did not find a file of a package whose installation is not known.
     pub(super) fn advice(&self, words: &str) -> Option<String> {
-        let is_in =
-            |one: &&Linked| one.at.to_str().is_some_and(|at| words.contains(&format!("{at}/")));
-        self.linked.iter().filter(is_in).find_map(|one| {
-            let why = one.installed.by_variables(&one.folder)?;
+        let prefix = format!("{}/", self.prefix.path().to_str()?);
+        words.split(&prefix).skip(1).find_map(|path| {
+            let (_, one, _) = self.linked(path)?;
+            let why = one.installed.is_not_known(&one.folder)?;
             let folder = one.folder.display();
             Some(format!(
                 "{why}; if this is one of them, build {folder} and source its install/setup.bash"
             ))
         })
-    }
-}
-
-impl Linked {
-    fn lasting(&self, text: String) -> String {
-        let name = self.at.file_name().and_then(|name| name.to_str());
-        let (Some(at), Some(name), Some(to)) = (self.at.to_str(), name, self.folder.to_str())
-        else {
-            return text;
-        };
-        let inside = format!("{at}/");
-        if !text.contains(&inside) {
-            return text;
-        }
-        // Many write `file:///$(find NAME)`, with one slash too many.
-        let as_package = format!("package://{name}/");
-        let text = text.replace(&format!("file:///{inside}"), &as_package);
-        let text = text.replace(&format!("file://{inside}"), &as_package);
-        let mut parts = text.split(&inside);
-        let mut made = parts.next().unwrap_or_default().to_owned();
-        for rest in parts {
-            let end = rest.find(ENDS_PATH).unwrap_or(rest.len());
-            let is_there = |path: &String| self.folder.join(path).exists();
-            let source = self.installed.sources(&rest[..end]).find(is_there);
-            let source = source.as_deref().unwrap_or(&rest[..end]);
-            made += &format!("{to}/{source}{}", &rest[end..]);
-        }
-        made
     }
 }
 

@@ -1,16 +1,16 @@
 //! Finds ROS packages: those that are named or known, and those around a URDF, which it is in or which are beside them.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ffi::OsString;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use thiserror::Error;
-use urdd_directory::limits::MAX_MANIFEST_BYTES;
 use urdd_format::escape;
 use urdd_format::nearest::nearest;
 
 use crate::files::{Files, is_broad};
+use crate::folder_facts::FolderFacts;
 
 /// Maximum depth of the search for packages below `ROS_PACKAGE_PATH`.
 const CRAWL_DEPTH: usize = 5;
@@ -122,7 +122,7 @@ impl Packages {
         name: &str,
         urdf_folder: &Path,
         is_model: bool,
-        files: &Files,
+        facts: &FolderFacts,
     ) -> Vec<PathBuf> {
         if let Some(path) = self.given.get(name) {
             return vec![path.clone()];
@@ -131,7 +131,7 @@ impl Packages {
         // The URDF's own package, found by its package.xml or its folder name, or a package next to it.
         let listed = self.ros_package_path.iter().map(PathBuf::as_path);
         for folder in urdf_folder.ancestors().chain(listed) {
-            if package_name(folder, files).as_deref() == Some(name) || is_named(folder, name) {
+            if facts.is_package(folder, name) || is_named(folder, name) {
                 folders.push(folder.to_owned());
             }
             folders.push(folder.join(name));
@@ -148,10 +148,10 @@ impl Packages {
 
     /// The packages deep below `ROS_PACKAGE_PATH`, by name, as ROS finds them. Slow, so only used when everything else has
     /// failed, and once.
-    pub(super) fn crawl(&self, files: &Files) -> BTreeMap<String, PathBuf> {
+    pub(super) fn crawl(&self, facts: &FolderFacts) -> BTreeMap<String, PathBuf> {
         let (mut left, mut found) = (MOST_FOLDERS, BTreeMap::new());
         for folder in &self.ros_package_path {
-            crawl(folder, CRAWL_DEPTH, &mut left, &mut found, files);
+            crawl(folder, CRAWL_DEPTH, &mut left, &mut found, facts);
         }
         found
     }
@@ -173,28 +173,19 @@ fn is_named(folder: &Path, name: &str) -> bool {
     folder.file_name().is_some_and(|found| found == name)
 }
 
-/// The name in a folder's `package.xml`, if that is there and is well-formed.
-pub fn package_name(folder: &Path, files: &Files) -> Option<String> {
-    let bytes = files.read(&folder.join("package.xml"), MAX_MANIFEST_BYTES).ok()?;
-    let text = String::from_utf8(bytes).ok()?;
-    let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).ok()?;
-    let mut elements = document.root_element().children();
-    let name = elements.find(|element| element.has_tag_name("name"))?;
-    Some(name.text()?.trim().to_owned())
-}
-
 /// The packages right in a folder, by name.
 fn beside(folder: &Path) -> Vec<(String, PathBuf)> {
     let mut names = Files::Disk.names(folder);
     names.truncate(MOST_NAMES);
     let folders = names.into_iter().map(|name| folder.join(name));
-    folders.filter_map(|folder| Some((package_name(&folder, &Files::Disk)?, folder))).collect()
+    let facts = FolderFacts::new(&Files::Disk);
+    folders.filter_map(|folder| Some((facts.package_name(&folder)?.to_string(), folder))).collect()
 }
 
 /// The packages below the sources of a workspace.
-pub(super) fn of_workspace(folder: &Path, files: &Files) -> BTreeMap<String, PathBuf> {
+pub(super) fn of_workspace(folder: &Path, facts: &FolderFacts) -> BTreeMap<String, PathBuf> {
     let (mut left, mut found) = (MOST_OF_WORKSPACE, BTreeMap::new());
-    crawl(folder, CRAWL_DEPTH, &mut left, &mut found, files);
+    crawl(folder, CRAWL_DEPTH, &mut left, &mut found, facts);
     found
 }
 
@@ -203,15 +194,16 @@ fn crawl(
     depth: usize,
     left: &mut usize,
     found: &mut BTreeMap<String, PathBuf>,
-    files: &Files,
+    facts: &FolderFacts,
 ) {
+    let files = facts.files();
     if *left == 0 || IGNORED.iter().any(|name| files.exists(&folder.join(name))) {
         return;
     }
     *left -= 1;
-    if let Some(name) = package_name(folder, files) {
+    if let Some(name) = facts.package_name(folder) {
         // Packages are not nested. The first of a name counts.
-        found.entry(name).or_insert_with(|| folder.to_owned());
+        found.entry(name.to_string()).or_insert_with(|| folder.to_owned());
         return;
     }
     if depth == 0 {
@@ -222,7 +214,7 @@ fn crawl(
     names.truncate(MOST_NAMES);
     let below = names.into_iter().map(|name| folder.join(name));
     let below: Vec<PathBuf> = below.filter(|path| files.is_dir(path)).collect();
-    below.iter().for_each(|folder| crawl(folder, depth - 1, left, found, files));
+    below.iter().for_each(|folder| crawl(folder, depth - 1, left, found, facts));
 }
 
 /// How many folders above a URDF are searched for packages beside it.
@@ -271,12 +263,13 @@ const SOURCES: &str = "src";
 
 /// The folders above a URDF's folder, nearest first, then those beside them, then other packages of the workspace or
 /// repository.
-pub fn around(urdf_folder: &Path, files: &Files) -> Vec<Around> {
+pub fn around(urdf_folder: &Path, facts: &FolderFacts) -> Vec<Around> {
+    let files = facts.files();
     let of = |folder: &Path, is_above| {
-        let written = package_name(folder, files).filter(|name| is_plain(name));
+        let written = facts.package_name(folder).filter(|name| is_plain(name));
         let has_manifest = written.is_some();
         let plain = || Some(folder.file_name()?.to_str()?.to_owned());
-        let name = written.or_else(plain)?;
+        let name = written.map(|name| name.to_string()).or_else(plain)?;
         Some(Around { name, folder: folder.to_owned(), has_manifest, is_above })
     };
     let mut found: Vec<Around> =
@@ -291,7 +284,7 @@ pub fn around(urdf_folder: &Path, files: &Files) -> Vec<Around> {
     }
     if let (Files::Disk, Some(root)) = (files, workspace(urdf_folder)) {
         let known: HashSet<PathBuf> = found.iter().map(|one| one.folder.clone()).collect();
-        let others = of_workspace(root, files).into_iter();
+        let others = of_workspace(root, facts).into_iter();
         let others = others.filter(|(name, folder)| is_plain(name) && !known.contains(folder));
         found.extend(others.map(|(name, folder)| {
             let is_above = urdf_folder.starts_with(&folder);
@@ -312,23 +305,56 @@ fn workspace(urdf_folder: &Path) -> Option<&Path> {
     above.filter(is_root).last()
 }
 
-/// The package whose name differs from `name` in case, `-`, `_`, `.` and spaces alone; or one around the URDF that has the file
-/// `rest`, with a near name and the same numbers.
-pub fn near(around: &[Around], name: &str, rest: &str, files: &Files) -> Option<NearPackage> {
-    let bare = |name: &str| name.to_lowercase().replace(['-', '_', ' ', '.'], "");
-    let has_file = |one: &Around| !rest.is_empty() && files.is_file(&one.folder.join(rest));
-    let same = around.iter().filter(|one| bare(&one.name) == bare(name));
-    // The first of the best.
-    let same = same.rev().max_by_key(|one| has_file(one));
-    let misspelt = || {
-        let is_near = |one: &&Around| {
-            nearest(std::iter::once(one.name.as_str()), name).is_some()
-                && digits(&one.name) == digits(name)
+/// The folders of [`around`], by their names.
+#[derive(Debug)]
+pub struct Neighbours {
+    all: Vec<Around>,
+    /// The first package of each name.
+    named: HashMap<String, usize>,
+    /// By names in small letters without what parts words.
+    bare: HashMap<String, Vec<usize>>,
+}
+
+fn bare(name: &str) -> String {
+    name.to_lowercase().replace(['-', '_', ' ', '.'], "")
+}
+
+impl Neighbours {
+    pub fn new(all: Vec<Around>) -> Self {
+        let (mut named, mut by_bare) = (HashMap::new(), HashMap::<_, Vec<usize>>::new());
+        for (place, one) in all.iter().enumerate() {
+            by_bare.entry(bare(&one.name)).or_default().push(place);
+            if one.has_manifest {
+                named.entry(one.name.clone()).or_insert(place);
+            }
+        }
+        Neighbours { all, named, bare: by_bare }
+    }
+
+    /// The package of a name.
+    pub fn package(&self, name: &str) -> Option<&Around> {
+        self.named.get(name).map(|place| &self.all[*place])
+    }
+
+    /// The package whose name differs from `name` in case, `-`, `_`, `.` and spaces alone; or one around the URDF that has the
+    /// file `rest`, with a near name and the same numbers. `has_file` looks for that file in a folder.
+    pub fn near(&self, name: &str, has_file: impl Fn(&Path) -> bool) -> Option<NearPackage> {
+        let has_file = |one: &Around| has_file(&one.folder);
+        let same = self.bare.get(&bare(name)).into_iter().flatten().map(|place| &self.all[*place]);
+        // The first of the best.
+        let same = same.rev().max_by_key(|one| has_file(one));
+        let misspelt = || {
+            let is_near = |one: &&Around| {
+                nearest(std::iter::once(one.name.as_str()), name).is_some()
+                    && digits(&one.name) == digits(name)
+            };
+            // Those above come first.
+            let above = self.all.iter().take_while(|one| one.is_above);
+            above.filter(|one| has_file(one)).find(is_near)
         };
-        around.iter().filter(|one| one.is_above && has_file(one)).find(is_near)
-    };
-    let package = same.or_else(misspelt)?.clone();
-    Some(NearPackage { has_file: has_file(&package), package })
+        let package = same.or_else(misspelt)?.clone();
+        Some(NearPackage { has_file: has_file(&package), package })
+    }
 }
 
 fn digits(name: &str) -> String {

@@ -3,10 +3,12 @@
 use std::path::{Component, Path, PathBuf};
 
 use percent_encoding::percent_decode_str;
+use urdd_directory::account::{Account, AccountError};
 use urdd_format::escape;
 
-use crate::files::Files;
-use crate::packages::{NearPackage, Packages, is_plain, near};
+use crate::folder_facts::FolderFacts;
+use crate::installed::LOOK_UP;
+use crate::packages::{NearPackage, Packages, is_plain};
 use crate::roots::{Place, Roots};
 
 /// Maximum number of searched places in a message.
@@ -47,6 +49,8 @@ pub struct NotFound {
     pub no_package: Option<String>,
     /// The package of a near name that is there instead.
     pub near_package: Option<Box<NearPackage>>,
+    /// Why nobody looked to the end.
+    pub stopped: Option<AccountError>,
 }
 
 /// A file whose path differs from a name in the case of letters alone.
@@ -67,6 +71,9 @@ impl NotFound {
 
     /// The places and the hint, for people.
     pub fn in_words(&self) -> String {
+        if let Some(why) = self.stopped {
+            return why.to_string();
+        }
         let mut words = String::new();
         if !self.tried.is_empty() {
             words = format!("tried {}", self.tried[..self.tried.len().min(MOST_TOLD)].join(", "));
@@ -93,9 +100,10 @@ pub fn resolve(
     urdf_folder: &Path,
     packages: &Packages,
     roots: &Roots,
+    account: &Account,
 ) -> Result<FoundMesh, NotFound> {
     let trimmed = filename.trim();
-    let mut search = Search { roots, not_found: NotFound::default() };
+    let mut search = Search { roots, account, not_found: NotFound::default() };
     let found = search.as_written(trimmed, urdf_folder, packages);
     if let Some(found) = found {
         return Ok(found);
@@ -106,7 +114,7 @@ pub fn resolve(
         (percent_decoded(trimmed), "`%` and two digits read as a character"),
     ];
     for (name, assumed) in others {
-        if name == trimmed {
+        if name == trimmed || search.not_found.stopped.is_some() {
             continue;
         }
         if let Some(found) = search.as_written(&name, urdf_folder, packages) {
@@ -119,6 +127,7 @@ pub fn resolve(
 
 struct Search<'a> {
     roots: &'a Roots,
+    account: &'a Account,
     not_found: NotFound,
 }
 
@@ -207,7 +216,7 @@ impl Search<'_> {
             return None;
         }
         let files = self.roots.files();
-        let folders = packages.folders(package, urdf_folder, is_model, files);
+        let folders = packages.folders(package, urdf_folder, is_model, self.roots.facts());
         let folders = folders.into_iter().filter(|folder| files.is_dir(folder));
         let mut folders: Vec<PathBuf> = folders.collect();
         folders.dedup();
@@ -223,8 +232,9 @@ impl Search<'_> {
             folders.push(folder.to_owned());
         }
         let around = self.roots.around(urdf_folder);
-        let beside = around.iter().find(|one| one.has_manifest && one.name == package);
-        if let Some(folder) = beside.map(|one| &one.folder).filter(|one| !folders.contains(one)) {
+        if let Some(folder) =
+            around.package(package).map(|one| &one.folder).filter(|one| !folders.contains(one))
+        {
             if let Some(found) = self.in_folder(folder, rest, package) {
                 return Some(found);
             }
@@ -233,7 +243,13 @@ impl Search<'_> {
         let mut near_package = None;
         if folders.is_empty() {
             self.not_found.no_package.get_or_insert(package.to_owned());
-            near_package = near(around, package, rest, files);
+            let (account, mut stopped) = (self.account, None);
+            let stopped = std::cell::Cell::new(stopped.take());
+            near_package = around.near(package, |folder| {
+                let charged = account.charge(LOOK_UP).map_err(|why| stopped.set(Some(why)));
+                charged.is_ok() && !rest.is_empty() && files.is_file(&folder.join(rest))
+            });
+            self.not_found.stopped = self.not_found.stopped.or(stopped.get());
         }
         let option = format!("--package {}=FOLDER", escape::shell(package));
         let hint = match folders.is_empty() {
@@ -243,7 +259,7 @@ impl Search<'_> {
             ),
             false => {
                 let mut all = folders.iter();
-                let why = all.find_map(|one| self.roots.installed(one).by_variables(one));
+                let why = all.find_map(|one| self.roots.facts().installed(one).is_not_known(one));
                 let by_a_build = why.map_or_else(String::new, |why| {
                     format!("{why}: build the package and source its install/setup.bash; or, ")
                 });
@@ -260,9 +276,15 @@ impl Search<'_> {
 
     /// A file of a package in a folder: from where it is installed, or else where it has this path.
     fn in_folder(&mut self, folder: &Path, path: &str, package: &str) -> Option<FoundMesh> {
-        let installed = self.roots.installed(folder);
-        let is_there = |path: &String| self.roots.files().is_file(&folder.join(path));
-        let source = installed.sources(path).find(is_there);
+        let installed = self.roots.facts().installed(folder);
+        let is_there = |path: &str| self.roots.files().is_file(&folder.join(path));
+        let source = match installed.source(path, self.account, is_there) {
+            Ok(source) => source,
+            Err(why) => {
+                self.not_found.stopped = Some(why);
+                return None;
+            }
+        };
         self.try_file(folder, source.as_deref().unwrap_or(path), Some((package, folder)))
     }
 
@@ -274,6 +296,11 @@ impl Search<'_> {
     ) -> Option<FoundMesh> {
         let path = folder.join(name);
         let files = self.roots.files();
+        // A name that is long is in each message about it.
+        if let Err(why) = self.account.charge(LOOK_UP + path.as_os_str().len()) {
+            self.not_found.stopped = Some(why);
+            return None;
+        }
         if files.is_file(&path) {
             let file = files.canonicalize(&path).ok()?;
             if let Some(place) = self.roots.place(&file, package) {
@@ -281,7 +308,7 @@ impl Search<'_> {
             }
             self.not_found.outside.get_or_insert(file);
         } else if !files.exists(&path)
-            && let Some(near) = other_case(folder, name, files)
+            && let Some(near) = other_case(folder, name, self.roots.facts(), self.account)
         {
             let hint = format!("there is {}, whose case differs", near.file.display());
             self.not_found.hint.get_or_insert(hint);
@@ -303,7 +330,12 @@ impl Search<'_> {
 }
 
 /// The file in a folder whose path differs from a name only in case.
-fn other_case(folder: &Path, name: &str, files: &Files) -> Option<OtherCase> {
+fn other_case(
+    folder: &Path,
+    name: &str,
+    facts: &FolderFacts,
+    account: &Account,
+) -> Option<OtherCase> {
     let mut folder = folder.to_owned();
     let mut parts: Vec<Component> = Path::new(name).components().collect();
     if Path::new(name).is_absolute() {
@@ -319,7 +351,8 @@ fn other_case(folder: &Path, name: &str, files: &Files) -> Option<OtherCase> {
     for part in parts {
         let mut next = Vec::new();
         for (folder, written) in near {
-            for name in alike(&folder, part, files)? {
+            account.charge(LOOK_UP).ok()?;
+            for name in alike(&folder, part, facts)? {
                 let slash = if written.is_empty() { "" } else { "/" };
                 next.push((folder.join(&name), format!("{written}{slash}{name}")));
             }
@@ -328,26 +361,29 @@ fn other_case(folder: &Path, name: &str, files: &Files) -> Option<OtherCase> {
         next.truncate(MOST_ALIKE);
         near = next;
     }
+    let files = facts.files();
     near.retain(|(path, _)| files.exists(path) && !files.is_dir(path));
     let is_only = near.len() == 1 && !is_cut;
     let (file, written) = near.into_iter().next()?;
     Some(OtherCase { file, written, is_only })
 }
 
-/// The names in a folder that differ from a part of a path in case at most, that part itself first. `None` if a path does not
-/// go on with it.
-fn alike(folder: &Path, part: Component, files: &Files) -> Option<Vec<String>> {
+/// The names in a folder that differ from a part of a path in case at most, that part itself first, a few of very many. `None`
+/// if a path does not go on with it.
+fn alike(folder: &Path, part: Component, facts: &FolderFacts) -> Option<Vec<String>> {
     let name = match part {
         Component::Normal(name) => name.to_str()?,
         Component::ParentDir => return Some(vec!["..".to_owned()]),
         Component::CurDir => return Some(vec![".".to_owned()]),
         Component::RootDir | Component::Prefix(_) => return None,
     };
-    let lower = name.to_lowercase();
-    let names = files.names(folder).into_iter().filter_map(|name| name.into_string().ok());
-    let mut names: Vec<String> = names.filter(|other| other.to_lowercase() == lower).collect();
-    names.sort_by_key(|other| (other != name, other.clone()));
-    Some(names)
+    let spellings = facts.spellings(folder);
+    let names = spellings.get(&name.to_lowercase()).map(Vec::as_slice).unwrap_or_default();
+    let own = names.binary_search_by(|other| other.as_str().cmp(name)).ok();
+    let others = names.iter().enumerate().filter(|(place, _)| Some(*place) != own);
+    let own = own.map(|place| names[place].clone());
+    let others = others.map(|(_, name)| name.clone()).take(MOST_ALIKE + 1);
+    Some(own.into_iter().chain(others).collect())
 }
 
 /// Decodes percent-encoding such as `%20`; returns the name unchanged if the result is not UTF-8.

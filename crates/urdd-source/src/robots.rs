@@ -1,11 +1,12 @@
 //! Finds the robot descriptions of paths and folders, and names them.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use thiserror::Error;
+use urdd_directory::account::Account;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::limits::MAX_FOLDER_DEPTH;
@@ -18,9 +19,10 @@ use crate::described::{Description, FileKind, Reason, describe};
 use crate::error::SourceError;
 use crate::fault::Fault;
 use crate::files::Files;
+use crate::folder_facts::FolderFacts;
 use crate::format::{RobotFile, by_content, parts_of_others};
-use crate::packages::{IGNORED, package_name};
-use crate::settings::{Declared, Settings, files_below, robots_of};
+use crate::packages::IGNORED;
+use crate::settings::{Declared, Settings, files_below};
 
 /// A robot of a batch.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,17 +35,21 @@ pub struct Job {
     pub arguments: Vec<String>,
     /// The packages in the folders that were searched, by name.
     pub packages: Arc<BTreeMap<String, PathBuf>>,
+    /// What the batch knows of the folders around its robots.
+    pub facts: Option<FolderFacts>,
 }
 
 impl Job {
     /// A robot that nobody declares.
     pub fn new(source: PathBuf, name: String) -> Self {
-        Job { source, name, arguments: Vec::new(), packages: Arc::default() }
+        Job { source, name, arguments: Vec::new(), packages: Arc::default(), facts: None }
     }
 
-    /// The settings to read it with.
+    /// The settings to read it with: those of a run of its own.
     pub fn settings(&self, all: &Settings) -> Settings {
         let mut settings = all.with_declared(&self.arguments);
+        settings.facts.clone_from(&self.facts);
+        settings.account = Some(Account::new(&all.cancellation));
         let packages = self.packages.iter().map(|(name, folder)| (name.clone(), folder.clone()));
         settings.packages.know(packages);
         settings
@@ -177,6 +183,8 @@ impl Batch {
 /// If a path does not exist, or a folder cannot be searched or has no description. There may be parts of robots alone.
 pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError> {
     let (mut sources, mut listed, mut batch) = (Vec::new(), Vec::new(), Batch::default());
+    let facts = FolderFacts::new(&settings.files);
+    let settings = &Settings { facts: Some(facts.clone()), ..settings.clone() };
     batch.wanted.extend(settings.robots.iter().map(|robot| resolved(&robot.source)));
     for path in paths {
         let shown = path.display().to_string();
@@ -188,10 +196,10 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
             continue;
         }
         let mut found = Found::default();
-        search(path, 0, &mut found)?;
+        search(path, 0, &facts, &mut found)?;
         found.urdfs.extend(files_below(path, &settings.robots));
         if found.urdfs.is_empty() {
-            let others = others(found.others);
+            let others = others(found.others, &settings.run_account());
             if others.is_empty() {
                 return Err(match (found.has_urdd, found.ignored) {
                     (true, _) => BatchError::Urdd { path: shown },
@@ -225,15 +233,29 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
         let is_robot = !passed.contains(path) || batch.wanted.contains(&place);
         seen.insert(place) && is_robot
     });
+    let named_paths: BTreeSet<&PathBuf> = paths.iter().collect();
+    let mut declared: HashMap<PathBuf, Vec<&Declared>> = HashMap::new();
+    for robot in settings.robots.iter() {
+        declared.entry(resolved(&robot.source)).or_default().push(robot);
+    }
     let robots = sources.into_iter().flat_map(|source| {
         // Arguments on the command line make a robot of their own.
-        let is_own = paths.contains(&source) && !settings.xacro.arguments.is_empty();
-        if is_own { vec![source.into()] } else { robots_of(source, &settings.robots) }
+        let is_own = named_paths.contains(&source) && !settings.xacro.arguments.is_empty();
+        match declared.get(&resolved(&source)).filter(|_| !is_own) {
+            Some(all) => {
+                let with_path =
+                    |one: &&Declared| Declared { source: source.clone(), ..(*one).clone() };
+                all.iter().map(with_path).collect()
+            }
+            None => vec![source.into()],
+        }
     });
     batch.jobs = named(robots.collect());
     let packages = packages.into_iter().map(|(name, folder)| (name, resolved(&folder)));
     let packages: Arc<BTreeMap<String, PathBuf>> = Arc::new(packages.collect());
-    batch.jobs.iter_mut().for_each(|job| job.packages = Arc::clone(&packages));
+    for job in &mut batch.jobs {
+        (job.packages, job.facts) = (Arc::clone(&packages), Some(facts.clone()));
+    }
     Ok(batch)
 }
 
@@ -288,17 +310,22 @@ struct Found {
 }
 
 /// The descriptions among files whose names do not say it, without those that are parts of others.
-fn others(files: Vec<PathBuf>) -> Vec<PathBuf> {
+fn others(files: Vec<PathBuf>, account: &Account) -> Vec<PathBuf> {
     let is = |file: PathBuf| Some((by_content(&file, &Files::Disk)?, file));
     let found: Vec<(RobotFile, PathBuf)> = files.into_iter().filter_map(is).collect();
     let all = found.iter().map(|(is, file)| (file.as_path(), *is));
-    let parts = parts_of_others(all, &Files::Disk);
+    let parts = parts_of_others(all, &Files::Disk, account);
     let mut files: Vec<PathBuf> = found.into_iter().map(|(_, file)| file).collect();
     files.retain(|file| !file.canonicalize().is_ok_and(|file| parts.contains(&file)));
     files
 }
 
-fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchError> {
+fn search(
+    folder: &Path,
+    depth: usize,
+    facts: &FolderFacts,
+    found: &mut Found,
+) -> Result<(), BatchError> {
     let unreadable = |error: std::io::Error| BatchError::Unreadable {
         path: folder.display().to_string(),
         reason: error.to_string(),
@@ -312,8 +339,8 @@ fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchErr
         found.ignored.get_or_insert_with(|| (folder.to_owned(), mark));
         return Ok(());
     }
-    if let Some(name) = package_name(folder, &Files::Disk) {
-        found.packages.push((name, folder.to_owned()));
+    if let Some(name) = facts.package_name(folder) {
+        found.packages.push((name.to_string(), folder.to_owned()));
     }
     if depth > MAX_FOLDER_DEPTH {
         let path = folder.display().to_string();
@@ -329,7 +356,7 @@ fn search(folder: &Path, depth: usize, found: &mut Found) -> Result<(), BatchErr
     for (name, path, is_folder) in entries {
         if is_folder {
             if !name.starts_with('.') {
-                search(&path, depth + 1, found)?;
+                search(&path, depth + 1, facts, found)?;
             }
             continue;
         }
@@ -376,13 +403,14 @@ fn names(sources: &[Declared]) -> Vec<String> {
         }
     }
     let mut taken = BTreeSet::new();
+    let mut last: HashMap<String, usize> = HashMap::new();
     let names = (0..sources.len()).map(|idx| {
         let name = name(idx, used[idx]);
         let mut candidate = name.clone();
-        let mut number = 2;
+        let number = last.entry(name.to_lowercase()).or_insert(1);
         while !taken.insert(candidate.to_lowercase()) {
+            *number += 1;
             candidate = format!("{name}_{number}");
-            number += 1;
         }
         candidate
     });

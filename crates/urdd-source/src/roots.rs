@@ -5,11 +5,11 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::OnceLock;
 
 use crate::files::{Files, is_broad};
-use crate::installed::{self, Installed};
-use crate::packages::{Around, Packages, around, package_name};
+use crate::folder_facts::FolderFacts;
+use crate::packages::{Neighbours, Packages, around};
 use crate::settings::Settings;
 
 /// Names of folders for URDFs, which are siblings of `meshes` in a robot's folder.
@@ -18,16 +18,15 @@ const URDF_FOLDERS: &[&str] = &["urdf", "urdfs", "robots", "robot", "xacro"];
 /// The allowed folders, with symbolic links resolved.
 #[derive(Debug)]
 pub struct Roots {
-    files: Files,
+    facts: FolderFacts,
     /// The URDF's folder, or the robot's folder that contains it.
     own: PathBuf,
     /// Packages named by the user.
     given: Vec<(String, PathBuf)>,
     /// Other folders allowed by the user.
     allowed: Vec<PathBuf>,
-    around: OnceLock<Vec<Around>>,
+    around: OnceLock<Neighbours>,
     crawled: OnceLock<BTreeMap<String, PathBuf>>,
-    installed: Mutex<BTreeMap<PathBuf, Arc<Installed>>>,
 }
 
 /// The folder from which a file is read.
@@ -50,18 +49,18 @@ impl Roots {
             Some((name.to_owned(), path))
         });
         let allowed = settings.allowed_folders.iter();
+        let facts = settings.folder_facts();
         Roots {
             own: match files {
-                Files::Disk => own_folder(urdf_folder, files),
+                Files::Disk => own_folder(urdf_folder, &facts),
                 // All of it was given.
                 Files::Memory(_) => PathBuf::from("/"),
             },
             given: given.collect(),
             allowed: allowed.filter_map(|path| files.canonicalize(path).ok()).collect(),
-            files: files.clone(),
+            facts,
             around: OnceLock::new(),
             crawled: OnceLock::new(),
-            installed: Mutex::default(),
         }
     }
 
@@ -70,41 +69,37 @@ impl Roots {
         self.allowed.push(folder);
     }
 
-    pub fn around(&self, urdf_folder: &Path) -> &[Around] {
-        self.around.get_or_init(|| around(urdf_folder, &self.files))
+    pub fn around(&self, urdf_folder: &Path) -> &Neighbours {
+        self.around.get_or_init(|| Neighbours::new(around(urdf_folder, &self.facts)))
     }
 
     /// The folder of a package that is found only by searching deep.
     pub fn crawled(&self, package: &str, packages: &Packages) -> Option<&Path> {
-        let all = self.crawled.get_or_init(|| packages.crawl(&self.files));
+        let all = self.crawled.get_or_init(|| packages.crawl(&self.facts));
         all.get(package).map(PathBuf::as_path)
     }
 
-    pub fn installed(&self, folder: &Path) -> Arc<Installed> {
-        let mut known = self.installed.lock().unwrap_or_else(PoisonError::into_inner);
-        let of = || Arc::new(installed::installed(folder, &self.files));
-        Arc::clone(known.entry(folder.to_owned()).or_insert_with(of))
+    pub fn facts(&self) -> &FolderFacts {
+        &self.facts
     }
 
     pub fn files(&self) -> &Files {
-        &self.files
+        self.facts.files()
     }
 
     /// The place of a file (symbolic links resolved), or `None` if it may not be read. `package` is the package named
     /// in the reference, and the folder found for it.
     pub fn place(&self, file: &Path, package: Option<(&str, &Path)>) -> Option<Place> {
         if let Some((name, folder)) = package
-            && let Ok(folder) = self.files.canonicalize(folder)
+            && let Ok(folder) = self.files().canonicalize(folder)
         {
-            let is_package = package_name(&folder, &self.files).as_deref() == Some(name);
+            let is_package = self.facts.is_package(&folder, name);
             if file.starts_with(&folder) && (is_package || !is_broad(&folder)) {
                 return Some(Place::Package(name.to_owned(), folder));
             }
             // Installed packages may contain symbolic links to their source files.
             let mut above = file.ancestors().skip(1);
-            if let Some(source) =
-                above.find(|above| package_name(above, &self.files).as_deref() == Some(name))
-            {
+            if let Some(source) = above.find(|above| self.facts.is_package(above, name)) {
                 return Some(Place::Package(name.to_owned(), source.to_owned()));
             }
         }
@@ -126,9 +121,9 @@ impl Roots {
 }
 
 /// The package that contains the folder, otherwise the parent of a folder such as `urdf/`, otherwise the folder itself.
-fn own_folder(urdf_folder: &Path, files: &Files) -> PathBuf {
+fn own_folder(urdf_folder: &Path, facts: &FolderFacts) -> PathBuf {
     let mut above = urdf_folder.ancestors();
-    if let Some(package) = above.find(|above| package_name(above, files).is_some()) {
+    if let Some(package) = above.find(|above| facts.package_name(above).is_some()) {
         return package.to_owned();
     }
     let is_urdf_folder = |folder: &&Path| {

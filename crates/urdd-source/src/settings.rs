@@ -4,10 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use urdd_directory::account::Account;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::range::{OutOfRange, Range};
 
 use crate::files::Files;
+use crate::folder_facts::FolderFacts;
 use crate::packages::Packages;
 
 /// How a description is found and read. By default, with only the packages around it, from the disk.
@@ -27,11 +29,26 @@ pub struct Settings {
     pub loops: Option<PathBuf>,
     /// Where files are.
     pub files: Files,
+    /// The account of the run on one description, if it has several parts. By default each part has its own.
+    pub account: Option<Account>,
+    /// What the robots of one run know of the folders around them, each read once. By default each robot reads its own.
+    pub facts: Option<FolderFacts>,
     /// Cancellation: each account of a run is asked for it.
     pub cancellation: Cancellation,
 }
 
 impl Settings {
+    /// The account of the run; a new one, if each part of it has its own.
+    pub fn run_account(&self) -> Account {
+        self.account.clone().unwrap_or_else(|| Account::new(&self.cancellation))
+    }
+
+    /// The facts of the run, if they are of these files; else of folders that nobody has read.
+    pub(crate) fn folder_facts(&self) -> FolderFacts {
+        let shared = self.facts.as_ref().filter(|facts| facts.files().is_same(&self.files));
+        shared.cloned().unwrap_or_else(|| FolderFacts::new(&self.files))
+    }
+
     /// The settings with arguments for xacro that are declared of a file. Of two values of an argument, xacro takes the last.
     pub fn with_declared(&self, arguments: &[String]) -> Settings {
         let mut settings = self.clone();

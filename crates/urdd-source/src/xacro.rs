@@ -53,7 +53,7 @@ pub(super) fn expand(
         file: shown.to_owned(),
         fault: error.to_string().into(),
     };
-    let given = PackageIndex::new(packages, path).map_err(failed)?;
+    let given = PackageIndex::new(packages, path, cancellation).map_err(failed)?;
     // Without it nothing is known of places, and xacro runs all the same.
     let watch = Watch::begin().ok();
     let text = run(&[], path, shown, settings, &given, watch.as_ref(), cancellation)?;
@@ -242,9 +242,9 @@ fn has_macros(file: &Path) -> bool {
 }
 
 fn listed(file: &Path, settings: &Settings) -> Option<Vec<PathBuf>> {
-    let given = PackageIndex::new(&settings.packages, file).ok()?;
-    let text =
-        run(&["--deps"], file, "", &settings.xacro, &given, None, &settings.cancellation).ok()?;
+    let cancellation = &settings.cancellation;
+    let given = PackageIndex::new(&settings.packages, file, cancellation).ok()?;
+    let text = run(&["--deps"], file, "", &settings.xacro, &given, None, cancellation).ok()?;
     let files: Vec<PathBuf> = text.split_whitespace().map(PathBuf::from).collect();
     // A name with a blank is listed as two.
     files.iter().all(|file| file.is_file()).then_some(files)

@@ -13,7 +13,7 @@ use crate::Structure;
 use crate::error::unknown;
 use urdd_directory::export_toml::{EndEffectorTable, File, GroupTable, JointGains, Name};
 use urdd_directory::file_type::setup_beside;
-use urdd_directory::limits::MAX_TOML_BYTES;
+use urdd_directory::limits::MAX_SETUP_BYTES;
 use urdd_directory::position::LineIndex;
 use urdd_directory::range::Range;
 use urdd_directory::regular;
@@ -48,7 +48,7 @@ impl Setup {
         let shown = file.display().to_string();
         let unreadable = |reason: String| SetupError::Unreadable { file: shown.clone(), reason };
         let bytes =
-            regular::read(file, MAX_TOML_BYTES).map_err(|error| unreadable(error.to_string()))?;
+            regular::read(file, MAX_SETUP_BYTES).map_err(|error| unreadable(error.to_string()))?;
         let text =
             String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8".to_owned()))?;
         Setup::from_toml(&text, &shown, robot)

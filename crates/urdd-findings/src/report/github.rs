@@ -9,7 +9,7 @@ use super::style::unit;
 use crate::run::{file_in, is_inside};
 use urdd_format::escape;
 use urdd_format::readable::counted;
-use urdd_format::report::{Report, Severity, Status, Urdd, Verdict};
+use urdd_format::report::{Kind, Report, Severity, Status, Urdd, Verdict};
 
 /// Writes the report. `places` are the folders of its URDDs (see [`super::place::places`]).
 ///
@@ -18,7 +18,9 @@ use urdd_format::report::{Report, Severity, Status, Urdd, Verdict};
 pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::Result {
     for (urdd, place) in report.urdds.iter().zip(places) {
         if let Some(reason) = &urdd.reason {
-            let file = property(&file_in(place, None));
+            // A folder is no file that Actions shows.
+            let name = urdd.path.rsplit('/').next().filter(|_| urdd.kind == Kind::Urdf);
+            let file = property(&file_in(place, name));
             let verdict = urdd.verdict.as_str();
             writeln!(out, "::error file={file},title={verdict}::{}", data(reason))?;
         }

@@ -21,7 +21,7 @@ use urdd_format::registry::ModuleKind;
 use urdd_geometry::read::Scene;
 use urdd_source::gate::Gate;
 use urdd_source::note::{Note, NoteKind, SourcePlace};
-use urdd_source::{FoundMesh, Inspected, NotFound, Place, named};
+use urdd_source::{FoundMesh, Inspected, NotFound, Place, mesh_files, named};
 
 /// The module, and what later stages use.
 #[derive(Debug)]
@@ -51,14 +51,14 @@ pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>>
     let Context { source, settings, progress, .. } = *context;
     let named = named(&source.reading.robot);
     let gate = Gate::new(&source.folder, &settings.source);
-    let mut found_files: BTreeMap<&str, Result<FoundMesh, NotFound>> = BTreeMap::new();
+    let found_files = mesh_files(source, &gate)?;
     // The distinct names in the order of the URDF, each with its first position.
     let mut names: Vec<(&str, &SourcePlace)> = Vec::new();
+    let mut seen = BTreeSet::new();
     for (mesh, place) in named.iter().zip(&source.mesh_places) {
-        found_files.entry(mesh.filename).or_insert_with(|| {
+        if seen.insert(mesh.filename) {
             names.push((mesh.filename, place));
-            gate.find(mesh.filename)
-        });
+        }
     }
     refuse_outside(&source.shown, &names, &found_files)?;
     let found: BTreeMap<&PathBuf, &FoundMesh> =

@@ -128,23 +128,24 @@ fn of_one_body(subject: &Subject, all: Vec<Faulty>) -> Vec<Faulty> {
     faults
 }
 
-/// The findings of rules, by where they are.
+/// The first findings of each rule, by where they are: others of a rule there say no more of a fault.
 #[derive(Default)]
 struct Index {
     /// Whether the text was no XML before it was repaired. Then URD011 tells of that, and of nothing else; or else of all
     /// but that.
     is_repaired: bool,
     by_position: HashMap<Position, Vec<usize>>,
-    /// The first of each rule in a link or joint.
+    /// In a link or joint.
     by_subject: HashMap<String, Vec<usize>>,
     /// Those about a file, by the link and the file's name: rules report a name once in each link.
     by_file: HashMap<(String, String), Vec<usize>>,
     /// Those about a material or its colour, by its name.
     by_material: HashMap<Short, Vec<usize>>,
-    /// The first of each rule.
+    /// In the file.
     firsts: Vec<usize>,
-    /// What `around` gave, by element.
+    /// What `around` and `inside` gave, by element.
     around: RefCell<HashMap<NodeId, Vec<usize>>>,
+    inside: RefCell<HashMap<NodeId, Vec<usize>>>,
     all: Vec<Known>,
 }
 
@@ -157,26 +158,30 @@ impl Index {
                 for (place, message) in finding.said() {
                     let Some(at) = at(place) else { continue };
                     let here = index.all.len();
-                    index.by_position.entry(at).or_default().push(here);
+                    let (all, code) = (&index.all, check.rule.code);
+                    let add = |list: &mut Vec<usize>| {
+                        if list.iter().all(|first: &usize| {
+                            let first: &Known = &all[*first];
+                            first.code != code
+                        }) {
+                            list.push(here);
+                        }
+                    };
+                    add(index.by_position.entry(at).or_default());
                     let is_of = |fault| sees(check.rule.code, &fault).is_some();
                     let file = place.subject.clone().zip(place.actual.clone());
                     let is_of_file = is_of(Fault::NotFound("mesh"));
                     if let Some(file) = file.filter(|_| is_of_file) {
-                        index.by_file.entry(file).or_default().push(here);
+                        add(index.by_file.entry(file).or_default());
                     }
                     let unknown = Fault::Unknown { kind: "material", name: Short::default() };
                     let offset = lines.offset(at).filter(|_| is_of(unknown));
                     if let Some(material) = offset.and_then(|at| material(subject, at)) {
-                        index.by_material.entry(material).or_default().push(here);
+                        add(index.by_material.entry(material).or_default());
                     }
                     let own = place.subject.as_ref();
-                    let part = own.map(|part| index.by_subject.entry(part.clone()).or_default());
-                    for firsts in part.into_iter().chain([&mut index.firsts]) {
-                        let is_new = |first: &usize| index.all[*first].code != check.rule.code;
-                        if firsts.iter().all(is_new) {
-                            firsts.push(here);
-                        }
-                    }
+                    own.map(|part| add(index.by_subject.entry(part.clone()).or_default()));
+                    add(&mut index.firsts);
                     index.all.push(Known {
                         code: check.rule.code,
                         at,
@@ -218,10 +223,11 @@ impl Index {
             let above = node.parent_element().filter(|above| above.parent_element().is_some())?;
             // A link and a joint hold parts of several kinds.
             let is_one = !matches!(node.tag_name().name(), "link" | "joint");
-            let inside = node.descendants().filter(|one| is_one && one.is_element());
-            let mut all =
-                self.around(above, |one| starts(one).into_iter().flat_map(here).collect());
-            all.extend(inside.flat_map(starts).flat_map(here));
+            let at = |one| starts(one).into_iter().flat_map(here).collect();
+            let beside = std::iter::once(above).chain(above.children());
+            let mut all = self.firsts_of(&self.around, above, beside, at);
+            let inside = node.descendants().filter(|_| is_one);
+            all.extend(self.firsts_of(&self.inside, node, inside, at));
             best(all, Reach::Beside)
         };
         let of_file = || {
@@ -255,15 +261,20 @@ impl Index {
         }
     }
 
-    /// The first finding of each rule at an element, or at one directly in it. `at` gives the findings at one element. It is
-    /// computed once for all elements inside.
-    fn around(&self, above: Node, at: impl Fn(Node) -> Vec<usize>) -> Vec<usize> {
-        let mut known = self.around.borrow_mut();
-        let firsts = known.entry(above.id()).or_insert_with(|| {
+    /// The first finding of each rule at nodes around one or in it. `at` gives the findings at an element. It is computed once
+    /// for all faults there.
+    fn firsts_of<'a>(
+        &self,
+        known: &RefCell<HashMap<NodeId, Vec<usize>>>,
+        node: Node<'a, 'a>,
+        all: impl Iterator<Item = Node<'a, 'a>>,
+        at: impl Fn(Node<'a, 'a>) -> Vec<usize>,
+    ) -> Vec<usize> {
+        let mut known = known.borrow_mut();
+        let firsts = known.entry(node.id()).or_insert_with(|| {
             let mut seen = HashSet::new();
-            let all = std::iter::once(above).chain(above.children()).filter(Node::is_element);
-            let found = all.flat_map(at).filter(|index| seen.insert(self.all[*index].code));
-            found.collect()
+            let found = all.filter(Node::is_element).flat_map(at);
+            found.filter(|index| seen.insert(self.all[*index].code)).collect()
         });
         firsts.clone()
     }

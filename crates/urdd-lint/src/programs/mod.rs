@@ -43,6 +43,7 @@ impl Asked {
         settings: &LintSettings,
     ) -> Self {
         let meshes = MeshFiles::new(folder, settings);
+        meshes.gate.account().deposit(text.len());
         let find = |name: &str| meshes.mesh(name);
         let file = File::new(file, &find);
         let lines = LineIndex::new(text);
@@ -60,12 +61,12 @@ impl Asked {
             }
             let is_chosen = chosen.contains(&program);
             let mut effects = program.read(&file);
-            for effect in &mut effects.0 {
+            for effect in effects.kept_mut() {
                 effect.at = offsets.of(effect.at);
             }
             results.push(result(program, is_chosen, &effects, &lines));
             refusing.extend((!effects.loads()).then_some(program));
-            let effects = effects.0.into_iter();
+            let effects = effects.into_kept().into_iter();
             said.extend(effects.map(|effect| Said { program, is_chosen, effect }));
         }
         let has_chosen = !settings.report.programs.is_empty();
@@ -92,17 +93,16 @@ fn result(
             is_usual: effect.fault.is_usual(),
         }
     };
-    let mut all: Vec<_> = effects.0.iter().collect();
+    let mut all: Vec<_> = effects.kept().iter().collect();
     all.sort_by_key(|effect| (effect.at, effect.deed));
-    let not_usual = effects.0.iter().filter(|effect| !effect.fault.is_usual());
     ProgramResult {
         program: program.id().to_owned(),
         name: program.name().to_owned(),
         family: program.family().to_owned(),
         version: program.version().to_owned(),
         is_chosen,
-        does: not_usual.map(|effect| effect.deed).max(),
-        effects_cut: Count::saturating(all.len().saturating_sub(KEPT)),
+        does: effects.worst_unusual(),
+        effects_cut: Count::saturating(all.len().saturating_sub(KEPT) + effects.cut()),
         effects: all.into_iter().take(KEPT).map(effect).collect(),
     }
 }
@@ -164,6 +164,7 @@ impl<'a> MeshFiles<'a> {
             // Other programs take names as they are written.
             Ok(found) if found.assumed.is_some() || name.trim() != name => Mesh::Missing,
             Ok(found) => self.read(&found, name),
+            Err(why) if why.stopped.is_some() => Mesh::Unknown,
             Err(why) if why.no_package.is_some() || why.outside.is_some() => Mesh::Unknown,
             Err(_) => Mesh::Missing,
         }

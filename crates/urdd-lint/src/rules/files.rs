@@ -3,6 +3,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use percent_encoding::percent_decode_str;
+use urdd_findings::part::SkipReason;
 use urdd_format::escape;
 use urdd_source::{Files, MissingMesh, OtherCase};
 
@@ -248,8 +249,13 @@ fn package_not_found(urdf: &Subject, findings: &mut Findings) -> Option<()> {
 }
 
 fn texture_missing(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    // With another scale, a mesh names the same files.
+    let mut seen = BTreeSet::new();
     for (node, mesh) in urdf.read_meshes(findings)? {
         let (Ok(facts), GeometryKind::Visual) = (mesh.facts, mesh.kind) else { continue };
+        if !seen.insert(mesh.file) {
+            continue;
+        }
         let folder = mesh.file.parent().unwrap_or(Path::new("."));
         for name in &facts.side_files {
             if !is_there(urdf.files, folder, name) {
@@ -306,6 +312,13 @@ fn textures<'a>(urdf: &Subject<'a>, findings: &mut Findings) -> Option<Vec<Textu
             && above.is_some_and(|above| above.tag_name().name() == "material")
     };
     let named = urdf.named_files().into_iter().filter(in_material);
-    let found = named.map(|named| (named, source.find(named.name)));
-    Some(found.collect())
+    let mut all = Vec::new();
+    for named in named {
+        let file = source.find(named.name);
+        if let Some(why) = file.as_ref().err().and_then(|missing| missing.stopped) {
+            findings.skip(SkipReason::obstacle(format!("textures were not looked for: {why}")))?;
+        }
+        all.push((named, file));
+    }
+    Some(all)
 }

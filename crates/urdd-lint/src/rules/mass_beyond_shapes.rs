@@ -55,7 +55,7 @@ fn center_of_mass_outside(urdf: &Subject, findings: &mut Findings) -> Option<()>
     let mut found = BTreeMap::new();
     for index in order {
         let (link, top) = (&robot.links[index], bodies.top[index]);
-        let body = &geometry.bodies.get(&top).filter(|body| !body.is_partial && !body.is_turned());
+        let body = &geometry.bodies.get(&top).filter(|body| !body.is_partial && !body.is_turned);
         let Some((inertial, body)) = Inertial::of(link).zip(*body) else {
             continue;
         };
@@ -107,11 +107,7 @@ fn inertia_beyond_geometry(urdf: &Subject, findings: &mut Findings) -> Option<()
             continue;
         };
         let is_little = inertial.trace() <= 0.0 || inertial.trace() < LEAST * of_body[&top];
-        if slides[link]
-            || body.is_partial
-            || body.is_turned()
-            || body.shapes.is_empty()
-            || is_little
+        if slides[link] || body.is_partial || body.is_turned || body.shapes.is_empty() || is_little
         {
             continue;
         }

@@ -167,7 +167,7 @@ const CLOSE: f64 = 0.03;
 fn visual_and_collision_apart(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let geometry = urdf.geometry(findings)?;
     for (index, link) in
-        geometry.links.iter().enumerate().filter(|(_, link)| !link.is_partial && !link.is_turned())
+        geometry.links.iter().enumerate().filter(|(_, link)| !link.is_partial && !link.is_turned)
     {
         let visual = bounds(link.corners_of(GeometryKind::Visual));
         let collision = bounds(link.corners_of(GeometryKind::Collision));
@@ -357,8 +357,8 @@ fn mesh_in_millimetres(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let longest = urdf.longest_part(findings)?;
     each(urdf, findings, |_, mesh| {
         let scale = Vector3::from(mesh.scale);
-        let corners = mesh.facts.ok()?.solid.corners.iter();
-        let size = diagonal(corners.map(|one| one.component_mul(&scale)));
+        // One mesh may have very many scales.
+        let size = mesh.facts.ok()?.lengths.component_mul(&scale).norm();
         let largest = mesh.scale.iter().fold(0.0, |most: f64, one| most.max(one.abs()));
         let (what, advice) = if size > longest {
             let unit = "if it is in millimetres, write scale=\"0.001 0.001 0.001\"";

@@ -93,3 +93,28 @@ fn very_many_comments_and_misspelt_names_take_a_moment() {
     lint_text(&text, "r.urdf", Path::new("/"), &LintSettings::default());
     assert!(start.elapsed() < Duration::from_secs(60));
 }
+
+/// A mesh by many scales names its files once, and has its lengths once.
+#[test]
+fn a_mesh_of_many_scales_is_looked_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let names: String = (0..200).map(|at| format!("newmtl m{at}\nmap_Kd t{at}.png\n")).collect();
+    std::fs::write(folder.path().join("m.mtl"), names).unwrap();
+    let mesh = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl m0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    std::fs::write(folder.path().join("m.obj"), mesh).unwrap();
+    let missing = |scales: usize| {
+        let visual = |at| {
+            format!(
+                "<visual><geometry><mesh filename=\"m.obj\" scale=\"1 1 1.{at}\"/></geometry></visual>"
+            )
+        };
+        let visuals: String = (0..scales).map(visual).collect();
+        let text = format!("<robot name=\"r\"><link name=\"a\">{visuals}</link></robot>");
+        let examined = lint_text(&text, "r.urdf", folder.path(), &LintSettings::default());
+        let check = examined.checks.iter().find(|check| check.rule.code.as_str() == "LNT030");
+        check.unwrap().findings.iter().map(|finding| finding.count).sum::<usize>()
+    };
+    let once = missing(1);
+    assert!(once > 0);
+    assert_eq!(missing(40), once);
+}

@@ -7,6 +7,7 @@ use std::borrow::Cow;
 
 use urdd_xml::{Counted, Kind};
 
+use crate::effect::Color;
 use crate::number;
 use crate::prelude::*;
 use crate::tinyxml::{Document, OLD_MAX_DEPTH};
@@ -36,7 +37,7 @@ pub const ABOUT: About = About {
 pub fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let lines = Lines::of(file.bytes);
     let reading = read_lines(file, &lines, effects);
-    for effect in &mut effects.0 {
+    for effect in effects.kept_mut() {
         effect.at = lines.place(effect.at).min(file.bytes.len());
     }
     reading
@@ -106,11 +107,25 @@ impl Lines<'_> {
     }
 }
 
+/// The colours of a material's name.
+struct Colors {
+    first: Color,
+    /// All of the name have it.
+    last: Color,
+    are_same: bool,
+}
+
+impl Colors {
+    fn of(color: Color) -> Self {
+        Colors { first: color.clone(), last: color, are_same: true }
+    }
+}
+
 struct PybulletReader<'r> {
     file: &'r File<'r>,
     effects: &'r mut Effects,
     /// The materials that are defined anywhere, with the first and the last colour of each.
-    materials: HashMap<String, (String, String)>,
+    materials: HashMap<String, Colors>,
 }
 
 /// The links in their order, and their places in it by their names.
@@ -127,14 +142,14 @@ impl PybulletReader<'_> {
             let name = material.value("name").unwrap_or_default();
             let part = Part::of("material", name);
             match self.materials.get(name) {
-                Some((first, _)) if *first == rgba(material) => {}
+                Some(known) if known.first.text == rgba(material) => {}
                 Some(_) => {
                     self.effects.drop(material, part, Fault::not_unique("material", name));
                 }
                 None => {
                     self.material(material, &part);
-                    let color = rgba(material).to_owned();
-                    self.materials.insert(name.to_owned(), (color.clone(), color));
+                    let color = Color::of(rgba(material));
+                    self.materials.insert(name.to_owned(), Colors::of(color));
                 }
             }
         }
@@ -142,10 +157,13 @@ impl PybulletReader<'_> {
         for material in visuals.filter_map(|visual| visual.child("material")) {
             if is_defined(material) {
                 let name = material.value("name").unwrap_or_default().to_owned();
-                let color = rgba(material).to_owned();
+                let color = Color::of(rgba(material));
                 let known = self.materials.entry(name);
-                known.or_insert_with(|| (color.clone(), color.clone())).1 = color.clone();
+                known.or_insert_with(|| Colors::of(color.clone())).last.clone_from(&color);
             }
+        }
+        for known in self.materials.values_mut() {
+            known.are_same = known.first.is_same(&known.last);
         }
         let mut links = Links::default();
         for link in robot.named("link") {

@@ -1,6 +1,6 @@
 //! How PyBullet reads visuals, collisions and joints, and what it makes a tree of.
 
-use crate::effect::is_same;
+use crate::effect::Color;
 use crate::prelude::*;
 use crate::pybullet::{Links, MOST_LINKS, PybulletReader, atof, is_defined, pieces, rgba};
 
@@ -36,16 +36,19 @@ impl PybulletReader<'_> {
         let name = &*self.effects.needed(material, "name")?.value;
         let part = part.inside("material");
         self.material(material, &part);
-        let Some((first, last)) = self.materials.get(name) else {
+        let Some(known) = self.materials.get(name) else {
             if !name.is_empty() {
                 self.effects.drop(material, part, Fault::unknown("material", name));
             }
             return Ok(());
         };
-        let own = if is_defined(material) { rgba(material) } else { first };
-        if !is_same(own, last) {
-            // All of a name have the last colour.
-            self.effects.read_as(material, part, Fault::not_unique("material", name), last);
+        let is_last = match is_defined(material) {
+            true => Color::of(rgba(material)).is_same(&known.last),
+            false => known.are_same,
+        };
+        if !is_last {
+            let fault = Fault::not_unique("material", name);
+            self.effects.read_as(material, part, fault, &known.last.text);
         }
         Ok(())
     }

@@ -68,11 +68,11 @@ impl<'t> ThreeReader<'_, 't> {
         let of_visuals: Vec<Node<'t>> = of_visuals.collect();
         let used: HashSet<&str> = of_visuals.iter().copied().map(name_of).collect();
         for material in named(robot, "material") {
-            let known = self.effects.0.len();
+            let known = self.effects.mark();
             self.material(material, &Part::of("material", name_of(material)))?;
             if !used.contains(name_of(material)) {
                 // Nothing shows it.
-                self.effects.0.truncate(known);
+                self.effects.forget(known);
             }
             self.materials.insert(name_of(material), Look::of(material));
         }

@@ -24,7 +24,7 @@ fn done(text: &str) -> [(bool, Vec<String>); 2] {
     let read = |program: Program| {
         let counted = Counted::new(text.as_bytes(), Kind::Robot).unwrap();
         let effects: Effects = program.read(&File::new(counted, &|_| Mesh::Missing));
-        let dropped = effects.0.iter().filter(|effect| effect.deed == Deed::Drops);
+        let dropped = effects.kept().iter().filter(|effect| effect.deed == Deed::Drops);
         let parts = dropped.map(|effect| effect.part.to_string()).collect();
         (effects.loads(), parts)
     };
@@ -59,7 +59,7 @@ fn mimics_are_read_from_fourteen_on() {
     let text = robot(&links, &joints);
     let counted = Counted::new(text.as_bytes(), Kind::Robot).unwrap();
     let effects = Program::Jetty.read(&File::new(counted, &|_| Mesh::Missing));
-    let why = effects.0.iter().find(|effect| effect.deed == Deed::Refuses).unwrap();
+    let why = effects.kept().iter().find(|effect| effect.deed == Deed::Refuses).unwrap();
     assert_eq!(why.fault.to_string(), "the joint that it follows is fixed, or left out");
     assert!(why.fault.advice().starts_with("let it follow a joint that moves"));
     let kept =

@@ -11,7 +11,7 @@ mod usd;
 use std::collections::{BTreeMap, BTreeSet};
 
 use parts::{Claim, are_near, claims, covers};
-use urdd_programs::{Deed, Effects, File, Program};
+use urdd_programs::{Deed, Effects, File, KEPT, Program};
 use urdd_xml::{Counted, Kind};
 
 /// Of a hundred changes, so many verdicts are the same.
@@ -109,7 +109,7 @@ fn any_bytes_are_read_without_a_panic_and_with_places_inside_of_the_file() {
         }
         for program in Program::ALL {
             let Some(effects) = read_bytes(program, &row.base, &bytes) else { continue };
-            for effect in effects.0 {
+            for effect in effects.into_kept() {
                 let text = String::from_utf8_lossy(&bytes);
                 assert!(effect.at <= bytes.len(), "{}: {effect:?} of {text}", program.id());
             }
@@ -170,7 +170,7 @@ fn score(program: Program, letter: char, rows: &[table::Row]) -> Score {
         };
         score.rows += 1;
         if (ours == '+') != (verdict == '+') {
-            let first = effects.0.iter().max_by_key(|effect| effect.deed);
+            let first = effects.kept().iter().max_by_key(|effect| effect.deed);
             let why = first.map(|effect| effect.fault.to_string()).unwrap_or_default();
             score.wrong.push(format!("{}: {verdict}, and ours {ours} ({why})", row.id));
             continue;
@@ -243,4 +243,20 @@ fn read(program: Program, row: &table::Row) -> Effects {
 fn read_bytes(program: Program, base: &str, bytes: &[u8]) -> Option<Effects> {
     let counted = Counted::new(bytes, Kind::Robot).ok()?;
     Some(program.read(&File::new(counted, &|name| meshes::find(program, base, name))))
+}
+
+#[test]
+fn of_very_many_effects_a_few_are_kept_and_all_are_counted() {
+    let many = 30_000;
+    let text = format!("<robot name=\"r\"><link name=\"a\"/>{}</robot>", "<lnk/>".repeat(many));
+    let counted = Counted::new(text.as_bytes(), Kind::Robot).unwrap();
+    let file = File::new(counted, &|_| urdd_programs::Mesh::Missing);
+    for program in Program::ALL {
+        let effects = program.read(&file);
+        if effects.loads() {
+            assert!(effects.kept().len() <= KEPT, "{}", program.id());
+            assert!(effects.kept().len() + effects.cut() >= many, "{}", program.id());
+            assert_eq!(effects.worst(), Some(Deed::Drops), "{}", program.id());
+        }
+    }
 }

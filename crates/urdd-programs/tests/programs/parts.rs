@@ -16,7 +16,7 @@ pub struct Claim {
 
 /// What a reader says of parts in a file that it loads.
 pub fn claims(effects: &Effects) -> BTreeSet<Claim> {
-    let claims = effects.0.iter().filter(|effect| effect.deed < Deed::Refuses);
+    let claims = effects.kept().iter().filter(|effect| effect.deed < Deed::Refuses);
     claims
         .map(|effect| Claim {
             part: effect.part.to_string(),

@@ -20,12 +20,12 @@ fn a_collada_mesh_loses_a_material_only_where_its_visual_has_one() {
     let find = |name: &str| meshes::find(program, "all.urdf", name);
     let effects = program.read(&File::new(counted, &find));
     let of = |deed: Deed| {
-        let all = effects.0.iter().filter(move |effect| effect.deed == deed);
+        let all = effects.kept().iter().filter(move |effect| effect.deed == deed);
         all.map(|effect| effect.part.to_string()).collect::<Vec<_>>()
     };
     assert_eq!(of(Deed::Drops), ["link/base/visual/1/material"]);
     assert_eq!(of(Deed::Reads), ["link/base/visual/0/material"]);
-    assert!(effects.0.iter().all(|effect| effect.fault.is_usual()));
+    assert!(effects.kept().iter().all(|effect| effect.fault.is_usual()));
 }
 
 #[test]
@@ -38,7 +38,7 @@ fn white_space_between_the_numbers_of_a_colour_is_told_and_what_is_read() {
             format!("<robot name=\"arm\">{material}<link name=\"a\">{visual}</link></robot>");
         let counted = Counted::new(text.as_bytes(), Kind::Robot).unwrap();
         let effects = Program::Three.read(&File::new(counted, &|_| Mesh::Missing));
-        let of_robot = effects.0.iter().filter(|effect| effect.part.starts_with("material/"));
+        let of_robot = effects.kept().iter().filter(|effect| effect.part.starts_with("material/"));
         let said = of_robot.map(|effect| (effect.fault.to_string(), effect.makes.clone().unwrap()));
         said.collect::<Vec<_>>()
     };

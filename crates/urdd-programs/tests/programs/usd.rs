@@ -22,13 +22,13 @@ fn an_inertia_that_goes_to_the_link_above_is_usual_unless_links_are_below() {
         ))
     };
     let dropped = |effects: &Effects| {
-        let mut all = effects.0.iter().filter(|effect| effect.deed == Deed::Drops);
+        let mut all = effects.kept().iter().filter(|effect| effect.deed == Deed::Drops);
         all.any(|effect| effect.part.to_string() == "link/body")
     };
     let beside = of("base");
-    assert!(dropped(&beside) && beside.0.iter().all(|effect| effect.fault.is_usual()));
+    assert!(dropped(&beside) && beside.kept().iter().all(|effect| effect.fault.is_usual()));
     let below = of("body");
-    let faults = below.0.iter().filter(|effect| !effect.fault.is_usual());
+    let faults = below.kept().iter().filter(|effect| !effect.fault.is_usual());
     let said: Vec<String> = faults.map(|effect| effect.fault.to_string()).collect();
     let lost = "its inertia goes to the link above, and all below it is lost";
     assert!(dropped(&below) && said.iter().any(|one| one == lost), "{said:?}");
@@ -41,7 +41,11 @@ fn an_attribute_with_a_prefix_is_called_so() {
         let effects = read(&format!(
             r#"<robot name="arm" xmlns:gz="http://gazebosim.org/schema"><link name="base"/>{inside}</robot>"#
         ));
-        effects.0.iter().find(|effect| effect.deed == Deed::Refuses).map(|it| it.fault.to_string())
+        effects
+            .kept()
+            .iter()
+            .find(|effect| effect.deed == Deed::Refuses)
+            .map(|it| it.fault.to_string())
     };
     let name = "in USD no attribute has a `-`, a `.` or a prefix in its name";
     let prefixed = format!("an attribute with a prefix is called `expressed_in`, and {name}");

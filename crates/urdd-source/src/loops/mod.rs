@@ -14,7 +14,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use urdd_directory::export_toml::unplaced;
 use urdd_directory::file_type;
-use urdd_directory::limits::MAX_TOML_BYTES;
+use urdd_directory::limits::MAX_SETUP_BYTES;
 use urdd_directory::loops_toml::{FrameTable, LoopTable};
 use urdd_directory::yaml::words;
 use urdd_format::loops::LoopKind;
@@ -96,7 +96,7 @@ fn read(path: &Path, text: String) -> Result<Said, SourceError> {
 
 /// The text of the file that a person names.
 fn text(path: &Path, settings: &Settings) -> Result<String, SourceError> {
-    let bytes = settings.files.read(path, MAX_TOML_BYTES).map_err(|error| error.to_string());
+    let bytes = settings.files.read(path, MAX_SETUP_BYTES).map_err(|error| error.to_string());
     decoded(path, bytes.and_then(beside::text))
 }
 
@@ -106,7 +106,7 @@ fn beside_text(path: &Path, settings: &Settings) -> Result<String, SourceError> 
     let folder = settings.files.canonicalize(folder.unwrap_or(Path::new(".")));
     let folder = folder.map_err(|why| SourceError::unread(&path.display().to_string(), why))?;
     let gate = Gate::of_project(&folder, settings);
-    let text = beside::companion(path, MAX_TOML_BYTES, &gate).unwrap_or_else(|| {
+    let text = beside::companion(path, MAX_SETUP_BYTES, &gate).unwrap_or_else(|| {
         let is_dangling = settings.files.is_dangling(path);
         let why =
             if is_dangling { "it is a link that leads nowhere" } else { "it cannot be opened" };

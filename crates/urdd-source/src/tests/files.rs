@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::{Files, MemoryFault, Settings, SourceError, SourceMeshes, package_name};
+use crate::{Files, FolderFacts, MemoryFault, Settings, SourceError, SourceMeshes};
 use urdd_directory::limits::{MAX_SET_BYTES, MAX_SET_FILES};
 use urdd_directory::listing::ReadError;
 use urdd_directory::source::Memory;
@@ -54,10 +54,8 @@ fn names_lead_where_they_lead_on_a_disk() {
     assert_eq!(source.read(&mesh).expect("a mesh").triangle_count(), 1);
     let other = source.meshes[3].file.as_ref().expect_err("another case");
     assert_eq!(other.other_case.as_ref().expect("a file").written, "../meshes/a.stl");
-    assert_eq!(
-        package_name(Path::new("/arm"), &memory(&files).unwrap()).unwrap(),
-        "arm_description"
-    );
+    let facts = FolderFacts::new(&memory(&files).unwrap());
+    assert_eq!(facts.package_name(Path::new("/arm")).as_deref(), Some("arm_description"));
 }
 
 #[test]
@@ -253,8 +251,9 @@ fn lost_files_are_found_by_their_last_names_and_others_by_names_that_lead_out() 
 fn manifests_are_never_searched() {
     let files = [("arm.urdf", "<robot name='r'/>"), ("package.xml", PACKAGE), ("b/x.stl", STL)];
     let files = memory(&files).expect("files").searched(|_| true);
-    assert_eq!(package_name(Path::new("/b"), &files), None);
-    assert_eq!(package_name(Path::new("/"), &files).as_deref(), Some("arm_description"));
+    let facts = FolderFacts::new(&files);
+    assert_eq!(facts.package_name(Path::new("/b")), None);
+    assert_eq!(facts.package_name(Path::new("/")).as_deref(), Some("arm_description"));
 }
 
 #[test]

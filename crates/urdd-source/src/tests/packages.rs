@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
+use urdd_directory::account::{Account, AccountError};
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::limits::ALLOWANCE;
 use urdd_xml::Xml;
 
 use crate::described::{Description, FileKind, Reason, describe};
@@ -26,8 +29,12 @@ fn installed(name: &str, text: &str) -> Installed {
     crate::installed::installed(Path::new("/p"), &memory(&[(&format!("p/{name}"), text)]))
 }
 
+fn index(packages: &Packages, file: &Path) -> PackageIndex {
+    PackageIndex::new(packages, file, &Cancellation::default()).expect("an index")
+}
+
 fn first(installed: &Installed, path: &str) -> Option<String> {
-    installed.sources(path).next()
+    installed.source(path, &Account::default(), |_| true).expect("an account")
 }
 
 #[test]
@@ -87,6 +94,55 @@ fn a_long_name_is_not_put_in_very_often() {
     let parts = "package_name + ".repeat(100);
     let text = format!("package_name = '{name}'\nsetup(data_files=[({parts} 'x', ['y'])])");
     assert_eq!(installed("setup.py", &text).rules, []);
+}
+
+#[test]
+fn each_of_very_many_names_has_no_long_destination() {
+    // A name takes a byte or two of the text, and what is made of it may take none of the destination's bytes.
+    let (names, folder) = ("a ".repeat(40_000), "x".repeat(100_000));
+    let cmake = format!("project(p)\ninstall(FILES {names} DESTINATION share/p/{folder})");
+    assert_eq!(installed("CMakeLists.txt", &cmake), Installed::default());
+    let names = "'a',".repeat(900);
+    let python = format!(
+        "name='p'\nlong='{}'\nsetup(name='p',\ndata_files=[('share/p/' {}, [{names}])])",
+        "x".repeat(255),
+        "+ long".repeat(60)
+    );
+    assert_eq!(installed("setup.py", &python).rules, []);
+    // The first thousand that are installed one by one are known, and where the others begin.
+    let cmake = format!("project(p)\n{}", "install(FILES a DESTINATION share/p/b)\n".repeat(1001));
+    let known = installed("CMakeLists.txt", &cmake);
+    assert_eq!((known.rules.len(), known.unknown), (1000, Some(("CMakeLists.txt", 1002))));
+    let why = known.is_not_known(Path::new("/p")).expect("words");
+    assert!(why.starts_with("/p/CMakeLists.txt:1002 installs more files"), "{why}");
+}
+
+#[test]
+fn what_may_be_a_file_is_charged_for_each_that_is_looked_for() {
+    // Folders of which any may have the file.
+    let rules = "install(DIRECTORY m/ DESTINATION share/p/meshes)\n".repeat(1000);
+    let known = installed("CMakeLists.txt", &format!("project(p)\n{rules}"));
+    let account = Account::default();
+    let looked = std::cell::Cell::new(0);
+    let missing = |_: &str| {
+        looked.set(looked.get() + 1);
+        false
+    };
+    let mut meshes = (0..5000).map(|mesh| format!("meshes/{mesh}.stl"));
+    let refused = meshes.find_map(|mesh| known.source(&mesh, &account, missing).err());
+    assert!(matches!(refused, Some(AccountError::Overdrawn(_))));
+    // Each costs 1,024 steps.
+    assert_eq!(looked.get() as u64, ALLOWANCE >> 10);
+    // Rules for other folders cost nothing.
+    let rules: String =
+        (0..1000).map(|at| format!("install(FILES s{at} DESTINATION share/p/t)\n")).collect();
+    let known = installed("CMakeLists.txt", &format!("project(p)\n{rules}"));
+    let account = Account::default();
+    looked.set(0);
+    for mesh in (0..5000).map(|mesh| format!("t/s{mesh}")) {
+        assert_eq!(known.source(&mesh, &account, missing).expect("an account"), None);
+    }
+    assert_eq!(looked.get(), 1000);
 }
 
 #[test]
@@ -319,7 +375,7 @@ fn find_leads_to_the_tree_as_it_is_installed() {
         ],
     );
     let file = root.join("ws/src/repo/demo/d/urdf/b.xacro");
-    let index = PackageIndex::new(&Packages::none(), &file).expect("an index");
+    let index = index(&Packages::none(), &file);
     let share = |name| share(&index, name);
     let at = share("demo").expect("demo");
     for path in ["ros2_control/a.xacro", "urdf/b.xacro", "urdf/x.yaml", "meshes/m.stl", "d/x.yaml"]
@@ -358,7 +414,7 @@ fn paths_of_installed_packages_are_theirs_and_those_of_the_machine_stay() {
     let packages = Packages::from_environment(|name| {
         (name == "AMENT_PREFIX_PATH").then(|| root.join("install").into())
     });
-    let index = PackageIndex::new(&packages, &root.join("robot/r.xacro")).expect("an index");
+    let index = index(&packages, &root.join("robot/r.xacro"));
     let at = share(&index, "arm").expect("arm");
     let machine = format!("file://{}/install/share/arm/meshes/m.stl", root.display());
     let text = format!("file://{}/meshes/m.stl {machine}", at.display());
