@@ -10,13 +10,13 @@ use super::output::{self, Failure, about, one_line, shown};
 use super::watch::Watch;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA};
-use urdd_directory::file_type::FileType;
+use urdd_directory::file_type::{FileType, is_archive};
 use urdd_directory::limits::{MAX_DOCUMENT_BYTES, MAX_SRDF_BYTES};
 use urdd_directory::listing::ReadError;
 use urdd_directory::metadata::{Files, Replacement};
 use urdd_directory::regular;
 use urdd_directory::root::Root;
-use urdd_directory::source::is_archive;
+
 use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
 use urdd_robot::Robot;

@@ -15,6 +15,7 @@ META = "urdd.json"
 BAD_PART = re.compile(r"[\\:\x00-\x1f\x7f-\x9f]")
 KNOWN_MAJOR = 1
 KNOWN_VERSION = (1, 1, 0)  # of this specification
+DOCUMENTS = ("VERSION", "module.json")
 PARENTS = ("mesh_modules", "link_shapes_modules")
 
 
@@ -40,15 +41,15 @@ def open_metadata(urdd: Urdd) -> bool:
     """2.2, 4.1: reads `urdd.json`; says whether the rest can be judged."""
     kind = urdd.tree.kind(META)
     if kind == "missing":
-        versions = [
-            urdd.tree.data(TABLE[name][0] + "/VERSION").strip()
-            for name in TABLE
-            if TABLE[name][0] in urdd.tree.folders
-        ]
-        if not any(version.startswith(b"1.") for version in versions):
-            raise Unreadable("no urdd.json, and no module of version 1 (2.2, 10.2)")
+        folders = [TABLE[name][0] for name in TABLE if TABLE[name][0] in urdd.tree.folders]
+        versions = [urdd.tree.data(folder + "/VERSION").strip() for folder in folders]
+        legacy = any(version.startswith(b"0.") for version in versions)
+        if not folders or (legacy and not any(version.startswith(b"1.") for version in versions)):
+            raise Unreadable("no urdd.json, and no module, or one of a legacy URDD (2.2, 10.2)")
         urdd.report.error("DIR001")
         return False
+    if kind != "file" and not any(folder in urdd.tree.folders for folder, *_ in TABLE.values()):
+        raise Unreadable("urdd.json is no file, and no module is there (2.2)")
     if kind in ("folder", "special"):
         urdd.report.error("DIR023", META)
         return False
@@ -181,8 +182,14 @@ def check_module_files(urdd: Urdd, place: int, entry: dict[str, Any]) -> None:
 
 
 def carried(urdd: Urdd, name: str) -> bool:
-    """2.10: whether a module is in the URDD."""
-    return any(entry["name"] == name for entry in urdd.entries())
+    """2.10, 11.2: whether a module is listed, or its folder is there."""
+    if any(entry["name"] == name for entry in urdd.entries()):
+        return True
+    if name in TABLE:
+        return TABLE[name][0] in urdd.tree.folders
+    named = [at for at in urdd.tree.folders if at.rpartition("/")[2] == name]
+    outside = [at for at in named if not re.search(r"_module/", at) and name.endswith("_module")]
+    return any(at + "/" + file in urdd.tree.files for at in outside for file in DOCUMENTS)
 
 
 def check_dependencies(urdd: Urdd, place: int, entry: dict[str, Any]) -> None:

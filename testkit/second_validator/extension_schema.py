@@ -75,6 +75,7 @@ def check_words(schema: dict[str, Any]) -> None:
 def check_keywords(schema: dict[str, Any], is_root: bool) -> None:
     """What the dialect says of the values of keywords."""
     require(is_root or "$id" not in schema)
+    require("#" not in str(schema.get("$id", ""))[:-1])
     if "type" in schema:
         names = schema["type"]
         require(isinstance(names, str) or (unique_strings(names) and len(names) > 0))
@@ -123,10 +124,17 @@ def check_schema(root: Any) -> None:
             check_words(schema)
             waiting += inner_schemas(schema)
     places = {id(schema) for schema in all_schemas}
+    anchors = [
+        name
+        for schema in all_schemas
+        if isinstance(schema, dict)
+        for name in {schema.get("$anchor"), schema.get("$dynamicAnchor")}
+    ]
     for schema in all_schemas:
         for key in ("$ref", "$dynamicRef"):
             if isinstance(schema, dict) and key in schema:
                 require(schema[key].startswith("#"))
+                require(anchors.count(schema[key][1:]) < 2)
                 try:
                     require(id(find(root, schema[key])) in places)
                 except (LookupError, ValueError, TypeError) as fault:

@@ -44,6 +44,8 @@ def frozen(value: Any) -> Any:
         return ("object", frozenset((key, frozen(inner)) for key, inner in value.items()))
     if isinstance(value, list):
         return ("list", tuple(frozen(inner) for inner in value))
+    if is_number(value):
+        value = float(value)  # 11.1: as binary64
     return (isinstance(value, bool), isinstance(value, str), value)
 
 

@@ -14,10 +14,20 @@ MAX_PREFIXES = 64
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 DECLARATION = re.compile(rb"<\?xml(?=[ \t\r\n])([^?>]*)\?>")
 VERSION = re.compile(rb"""[ \t\r\n]version[ \t\r\n]*=[ \t\r\n]*["']1\.[0-9]+["']""")
+SPACE = rb"[ \t\r\n]"
+QUOTED = rb"""(?:"[^"]*"|'[^']*')"""
+EQUALS = SPACE + b"*=" + SPACE + b"*"
+WHOLE = re.compile(
+    rb"<\?xml" + SPACE + b"+version" + EQUALS + QUOTED
+    + b"(?:" + SPACE + b"+encoding" + EQUALS + QUOTED + b")?"
+    + b"(?:" + SPACE + b"+standalone" + EQUALS + rb"""(?:"(?:yes|no)"|'(?:yes|no)'))?"""
+    + SPACE + rb"*\?>"
+)  # fmt: skip
 ENCODING = re.compile(rb"""[ \t\r\n]encoding[ \t\r\n]*=[ \t\r\n]*["']([^"']*)["']""")
 LITERAL = re.compile(rb"<!--.*?-->|<\?.*?\?>|\"[^\"]*\"|'[^']*'", re.DOTALL)
 PARAMETER = re.compile(rb"%[^ \t\r\n;%&\"']+;")
 START_TAG = re.compile(rb"""<(?:[^"'>]|"[^"]*"|'[^']*')*>""")
+NO_BEGIN = "[-.0-9\u00b7\u0300-\u036f\u203f\u2040]|$"
 XML_NAMESPACE = "http://www.w3.org/XML/1998/namespace"
 XMLNS_NAMESPACE = "http://www.w3.org/2000/xmlns/"
 
@@ -47,8 +57,14 @@ class Element:
 
 
 def check_name(name: str) -> None:
-    """Namespaces in XML: at most one colon, with something on both sides."""
-    if name.count(":") > 1 or name.startswith(":") or name.endswith(":"):
+    """Namespaces in XML: at most one colon, with a name on both sides."""
+    if name.count(":") > 1 or any(re.match(NO_BEGIN, part) for part in name.split(":")):
+        raise NotXml
+
+
+def check_plain(name: str, *_: object) -> None:
+    """Namespaces in XML: no colon."""
+    if ":" in name:
         raise NotXml
 
 
@@ -68,11 +84,7 @@ class Builder:
         self.parser.StartElementHandler = self.start
         self.parser.EndElementHandler = self.finish
         self.parser.CharacterDataHandler = self.characters
-        self.parser.ProcessingInstructionHandler = self.instruction
-
-    def instruction(self, target: str, _: str) -> None:
-        if ":" in target:
-            raise NotXml
+        self.parser.ProcessingInstructionHandler = check_plain
 
     def declare(self, attributes: dict[str, str]) -> dict[str, str]:
         """The prefixes that hold inside an element."""
@@ -135,7 +147,20 @@ def blank_doctype(data: bytes) -> bytes:
     """The text with spaces in place of a DOCTYPE, which has no effect (6.1.8)."""
     places: list[int] = []
     parser = expat.ParserCreate()
-    parser.StartDoctypeDeclHandler = lambda *_: places.append(parser.CurrentByteIndex)
+
+    def begin(name: str, *_: object) -> None:
+        places.append(parser.CurrentByteIndex)
+        check_name(name)
+
+    def attribute(element: str, name: str, *_: object) -> None:
+        check_name(element)
+        check_name(name)
+
+    parser.StartDoctypeDeclHandler = begin
+    parser.ElementDeclHandler = lambda name, _: check_name(name)
+    parser.AttlistDeclHandler = attribute
+    parser.NotationDeclHandler = check_plain
+    parser.ProcessingInstructionHandler = check_plain
     parser.EndDoctypeDeclHandler = lambda: places.append(parser.CurrentByteIndex)
     parser.Parse(data, True)
     if not places:
@@ -168,7 +193,7 @@ def read_xml(data: bytes) -> Element:
     declaration = DECLARATION.match(data, start)
     if declaration:
         encoding = ENCODING.search(declaration[1])
-        if not VERSION.match(declaration[1]):
+        if not VERSION.match(declaration[1]) or not WHOLE.fullmatch(declaration[0]):
             raise NotXml
         if encoding and not re.fullmatch(rb"utf-?8", encoding[1], re.IGNORECASE):
             raise NotXml

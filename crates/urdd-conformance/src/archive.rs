@@ -34,6 +34,8 @@ pub struct Oddities {
     /// Text after the archive's end.
     after: String,
     comment: String,
+    /// Whether no entry is deflated.
+    stored: bool,
     /// Number of this part of a split archive; a whole one is part 0.
     part: u16,
     /// Whether the records of zip64 are before the end record.
@@ -74,6 +76,10 @@ struct Said {
     size: Option<u32>,
     /// The Unix mode. Only the list has it.
     mode: Option<u32>,
+    /// The disk of a split archive. Only the list has it.
+    disk: Option<u16>,
+    /// The last change, as of MS-DOS.
+    time: Option<u16>,
     extra_base64: Option<Base64>,
 }
 
@@ -145,7 +151,7 @@ fn pack(entries: &[Entry<'_>], odd: &Oddities) -> io::Result<Vec<u8>> {
     let usual = OddEntry::default();
     for entry in entries {
         let name = std::str::from_utf8(&entry.name).unwrap_or_default();
-        archive.add(entry, odd.entries.get(name).unwrap_or(&usual))?;
+        archive.add(entry, odd.entries.get(name).unwrap_or(&usual), !odd.stored)?;
     }
     archive.finish(odd)
 }
@@ -160,6 +166,8 @@ struct Header {
     packed: u32,
     size: u32,
     mode: u32,
+    disk: u16,
+    time: u16,
     extra: Vec<u8>,
 }
 
@@ -177,6 +185,8 @@ impl Header {
         self.packed = said.packed.unwrap_or(self.packed);
         self.size = said.size.unwrap_or(self.size);
         self.mode = said.mode.unwrap_or(self.mode);
+        self.disk = said.disk.unwrap_or(self.disk);
+        self.time = said.time.unwrap_or(self.time);
         self
     }
 
@@ -185,7 +195,7 @@ impl Header {
     }
 
     fn bytes(&self) -> io::Result<Vec<u8>> {
-        let start = shorts(&[VERSION, self.flags, self.method, 0, DATE]);
+        let start = shorts(&[VERSION, self.flags, self.method, self.time, DATE]);
         let lengths = shorts(&[short(self.name.len())?, short(self.extra.len())?]);
         Ok([start, self.sizes(), lengths].concat())
     }
@@ -199,14 +209,15 @@ struct Archive {
 }
 
 impl Archive {
-    fn add(&mut self, entry: &Entry<'_>, odd: &OddEntry) -> io::Result<()> {
+    fn add(&mut self, entry: &Entry<'_>, odd: &OddEntry, deflates: bool) -> io::Result<()> {
         let content = entry.content;
         let mut crc = Crc::new();
         crc.update(content);
         let mut encoder = DeflateEncoder::new(Vec::new(), Compression::default());
         encoder.write_all(content)?;
         let deflated = encoder.finish()?;
-        let (method, data) = match (&odd.data_base64, deflated.len() < content.len()) {
+        let is_smaller = deflates && deflated.len() < content.len();
+        let (method, data) = match (&odd.data_base64, is_smaller) {
             (Some(Base64(data)), _) => (STORED, &data[..]),
             (None, true) => (DEFLATED, &deflated[..]),
             (None, false) => (STORED, content),
@@ -219,6 +230,8 @@ impl Archive {
             packed: word(data.len())?,
             size: word(content.len())?,
             mode: entry.mode,
+            disk: 0,
+            time: 0,
             extra: Vec::new(),
         };
         let listed = truth.clone().saying(&odd.both).saying(&odd.list);
@@ -239,8 +252,8 @@ impl Archive {
         if odd.unlisted {
             return Ok(());
         }
-        // Without a comment, on the first disk, without internal attributes.
-        let places = [shorts(&[0, 0, 0]), words(&[listed.mode << 16, start])].concat();
+        // Without a comment, and without internal attributes.
+        let places = [shorts(&[0, listed.disk, 0]), words(&[listed.mode << 16, start])].concat();
         let start = [b"PK\x01\x02", &shorts(&[MADE_BY])[..], &listed.bytes()?[..]].concat();
         self.list.extend([start, places, listed.name, listed.extra].concat());
         self.entries += 1;

@@ -266,8 +266,9 @@ const FAMILIES: [&str; 13] =
     ["DIR", "JSN", "SCH", "URD", "SRC", "DOF", "CHN", "CON", "BND", "CMP", "CNF", "LOP", "KIN"];
 /// Rules of these families about what the profile passes over: mirrors that are missing, and drafts.
 const OTHERS: [&str; 2] = ["DIR010", "DIR030"];
-/// Rule about what documents name: the profile reads the documents of Core modules alone.
+/// Rules about what documents name: the profile reads the documents of Core modules alone.
 const NOT_LISTED: &str = "DIR012";
+const NOT_A_FILE: &str = "DIR023";
 
 /// Whether a validator of the profile can decide a case of version 1.
 ///
@@ -286,7 +287,11 @@ fn is_core_json(suite: &Suite, case: &Case) -> Result<bool, Damage> {
     if files.into_iter().any(is_passed_over) {
         return Ok(false);
     }
-    Ok(case.code != NOT_LISTED || case.expected.iter().all(is_of_core(suite, case)?))
+    Ok(match &*case.code {
+        NOT_LISTED => case.expected.iter().all(is_of_core(suite, case)?),
+        NOT_A_FILE => case.expected.iter().all(is_listed(suite, case)?),
+        _ => true,
+    })
 }
 
 /// Whether a file is of no interest to the profile: a mirror, or of an extension or a module that is not at the root.
@@ -297,6 +302,17 @@ fn is_passed_over(path: &str) -> bool {
     matches!(last, Some("module.yaml" | "schema.json"))
         || first.is_some_and(is_extension)
         || ModuleKind::ALL.iter().any(is_above)
+}
+
+/// Whether a finding is about `urdd.json`, or a file that it lists or names.
+fn is_listed(suite: &Suite, case: &Case) -> Result<impl Fn(&Expected) -> bool, Damage> {
+    let tree = suite.tree(case)?;
+    let metadata = tree.file(ROOT_METADATA).map(String::from_utf8_lossy).unwrap_or_default();
+    let metadata = metadata.into_owned();
+    Ok(move |expected: &Expected| {
+        let file = expected.file.as_deref().unwrap_or(ROOT_METADATA);
+        file == ROOT_METADATA || metadata.contains(&format!("{file:?}"))
+    })
 }
 
 /// Whether a finding in `urdd.json` is about a Core module: one whose folder is in the root.

@@ -9,11 +9,11 @@ use serde_json::Value;
 use thiserror::Error;
 
 pub use crate::file_type::ROOT_METADATA;
-use crate::file_type::{FileType, is_staging, stem};
+use crate::file_type::{FileType, is_archive, is_staging, stem};
 use crate::limits::{MAX_DOCUMENT_BYTES, MAX_FILES, MAX_FOLDER_DEPTH};
 use crate::listing::{Entry, EntryKind, Listing, ReadError};
 use crate::root::Root;
-use crate::source::{OpenFile, Source, is_archive, is_urdd};
+use crate::source::{OpenFile, Source, is_urdd};
 use crate::{file_entry, json};
 use urdd_format::registry::ModuleKind;
 

@@ -140,11 +140,32 @@ fn is_usd(bytes: &[u8]) -> bool {
     bytes.starts_with(b"#usda ") || bytes.starts_with(b"PXR-USDC")
 }
 
+/// How a zip archive begins: with an entry, or with its end where it has none.
+const ZIP: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
+
+/// How other files begin that are not text, whatever text is in them.
+const BINARY: [&[u8]; 10] = [
+    b"glTF",
+    b"Kaydara FBX",
+    b"BLENDER",
+    b"\x89PNG",
+    b"\xff\xd8\xff",
+    b"%PDF-",
+    b"\x1f\x8b",
+    b"BZh",
+    b"\xfd7zXZ",
+    b"7z\xbc\xaf",
+];
+
+fn begins(head: &[u8], signatures: &[&[u8]]) -> bool {
+    signatures.iter().any(|signature| head.starts_with(signature))
+}
+
 /// Whether a file is a package of USD: a zip archive with that ending. Others are URDDs.
 fn is_usd_package(path: &Path, head: &[u8]) -> bool {
     let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
     let is_named = ending.is_some_and(|ending| ending == "usdz" || ending == "usd");
-    is_named && head.starts_with(b"PK\x03\x04")
+    is_named && begins(head, &ZIP)
 }
 
 /// A description of a robot, or what belongs to one.
@@ -161,15 +182,18 @@ pub enum RobotFile {
 }
 
 impl RobotFile {
-    /// What a file is that begins so. `<robot>` is the outermost element of URDF, xacro and SRDF: of these the name tells
-    /// which. `None` of anything else.
+    /// What a file is that begins so: by its signature, its outermost element, its name. `<robot>` is the outermost element
+    /// of URDF, xacro and SRDF: of these the name tells which. `None` of anything else.
     pub fn of(path: &Path, head: &[u8]) -> Option<RobotFile> {
         if is_usd(head) || is_usd_package(path, head) {
             return Some(RobotFile::Imported(Format::Usd));
         }
-        // By its byte order mark, if it has one.
+        if begins(head, &ZIP) {
+            return None;
+        }
+        // By its byte order mark, if it has one. What is stored in a binary file is not its outermost element.
         let (text, ..) = encoding_rs::UTF_8.decode(head);
-        let root = root_name(&text);
+        let root = root_name(&text).filter(|_| !begins(head, &BINARY));
         if let Some(format) = root.and_then(Format::of_root) {
             return Some(RobotFile::Imported(format));
         }
@@ -196,6 +220,16 @@ impl RobotFile {
             _ => None,
         }
     }
+}
+
+/// Whether a file on the disk is a zip archive, by its first bytes, or by its name if it is no description of a robot. A
+/// package of USD is none.
+pub fn is_archive(path: &Path) -> bool {
+    let mut head = [0; 4];
+    let mut read = || regular::open(path).ok()?.read_exact(&mut head).ok();
+    let is_one = path.is_file()
+        && (read().is_some_and(|()| begins(&head, &ZIP)) || FileType::Archive.is_of(path));
+    is_one && RobotFile::at(path).is_none()
 }
 
 /// Name of the root metadata file.

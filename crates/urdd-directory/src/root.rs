@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::file_type::is_archive;
 pub use crate::listing::{Entry, EntryKind, Listing, ReadError};
-use crate::source::{Archive, Disk, OpenFile, Source, is_archive};
+use crate::source::{Archive, Disk, OpenFile, Source};
 use crate::{path, regular};
 
 /// The root of a URDD.

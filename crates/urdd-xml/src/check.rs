@@ -4,10 +4,10 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use crate::doctype::{self, is_character_number, is_qualified};
 use crate::error::{
     Kind, MAX_ATTRIBUTES, MAX_COMPARED_BYTES, MAX_LEVELS, MAX_PREFIXES, XmlError, text_pos,
 };
+use crate::prolog::{self, is_character_number, is_qualified};
 
 /// Checks the limits tag by tag. Malformed XML is left to the parser.
 pub fn limits(text: &str, kind: Kind) -> Result<(), XmlError> {
@@ -111,24 +111,30 @@ const COLON: &str =
 const RESERVED: &str =
     "`<?xml ...?>` is the XML declaration, in lower case; other targets must not be called `xml`";
 const TARGET: &str = "the target of a processing instruction contains a colon; remove it";
-const STANDALONE: &str = "`standalone` of the XML declaration is neither `yes` nor `no`; remove it";
+const DECLARATION: &str =
+    "the XML declaration is not well-formed; write `<?xml version=\"1.0\" encoding=\"UTF-8\"?>`";
+const INSTRUCTION: &str =
+    "a processing instruction needs a name behind `<?`, and white space behind that; remove it";
+const TWICE: &str = "an element has the attribute `xmlns` twice; remove one";
 const NO_NAMESPACE: &str = "a prefix is declared with an empty namespace; name one";
 const OWN_PREFIX: &str =
     "the prefix `xmlns` is declared; it declares others, and cannot be declared itself";
 const NO_CHARACTER: &str = "a reference `&#...;` names no character of XML; remove it";
 
-/// Checks what the parser accepts and XML 1.0 or its namespaces do not. What is broken otherwise is left to the parser.
-pub fn strict(text: &str) -> Result<(), XmlError> {
+/// Checks what the parser accepts and XML 1.0 or its namespaces do not. What is broken otherwise is left to the parser. Returns
+/// the places of `xmlns` in attributes `prefix:xmlns`, which the parser takes for `xmlns`.
+pub fn strict(text: &str) -> Result<Vec<usize>, XmlError> {
     declaration(text)?;
-    match fault(text) {
+    let mut not_default = Vec::new();
+    match fault(text, &mut not_default) {
         Some((at, what)) => Err(XmlError::refused(text, at, what)),
-        None => Ok(()),
+        None => Ok(not_default),
     }
 }
 
 type Found = (usize, &'static str);
 
-fn fault(text: &str) -> Option<Found> {
+fn fault(text: &str, not_default: &mut Vec<usize>) -> Option<Found> {
     let mut at = 0;
     while let Some(markup) = next_markup(text, at) {
         if let Some(fault) = references(&text[at..markup.start], at) {
@@ -139,12 +145,13 @@ fn fault(text: &str) -> Option<Found> {
         let fault = match markup.kind {
             MarkupKind::Instruction => {
                 let at_start = matches!(&text[..markup.start], "" | "\u{feff}");
-                let what = instruction(&inside[2..inside.len() - 2], at_start);
+                let what = instruction(&text[markup.start..], at_start);
                 what.map(|what| (0, what))
             }
-            MarkupKind::Tag => tag(&inside[1..inside.len() - 1]).map(|(at, what)| (at + 1, what)),
+            MarkupKind::Tag => tag(&inside[1..inside.len() - 1], markup.start + 1, not_default)
+                .map(|(at, what)| (at + 1, what)),
             MarkupKind::Declaration if inside.starts_with("<!DOCTYPE") => {
-                doctype::fault(&text[markup.start..])
+                prolog::fault(&text[markup.start..])
             }
             MarkupKind::Text | MarkupKind::Declaration => None,
         };
@@ -155,29 +162,22 @@ fn fault(text: &str) -> Option<Found> {
     None
 }
 
-/// The fault of a processing instruction, without its marks.
+/// The fault of the processing instruction that a text begins with.
 fn instruction(text: &str, at_start: bool) -> Option<&'static str> {
-    let target = text.split(|c: char| c.is_ascii_whitespace()).next()?;
-    if target.contains(':') {
-        return Some(TARGET);
+    let target = text[2..].split(|c: char| c.is_ascii_whitespace() || c == '?').next()?;
+    match target {
+        "xml" if at_start => (!prolog::has_declaration(text)).then_some(DECLARATION),
+        // The parser says it.
+        "xml" if text.starts_with("<?xml ") => None,
+        _ if target.eq_ignore_ascii_case("xml") => Some(RESERVED),
+        _ if target.contains(':') => Some(TARGET),
+        _ => (!prolog::has_instruction(text)).then_some(INSTRUCTION),
     }
-    if !target.eq_ignore_ascii_case("xml") {
-        return None;
-    }
-    if target != "xml" {
-        return Some(RESERVED);
-    }
-    if !at_start {
-        return None;
-    }
-    let (_, after) = text.split_once("standalone")?;
-    let value = after.trim_start().strip_prefix('=')?.trim_start();
-    let quoted = ["\"yes\"", "'yes'", "\"no\"", "'no'"];
-    (!quoted.iter().any(|right| value.starts_with(right))).then_some(STANDALONE)
 }
 
-/// The fault of a tag, without `<` and `>`, and its offset.
-fn tag(text: &str) -> Option<Found> {
+/// The fault of a tag, without `<` and `>`, and its offset. Adds where its attributes `prefix:xmlns` have their `xmlns`; `start`
+/// is where the tag is.
+fn tag(text: &str, start: usize, not_default: &mut Vec<usize>) -> Option<Found> {
     let is_space = |c: char| c.is_ascii_whitespace();
     let body = text.strip_prefix('/').unwrap_or(text);
     let body = body.strip_suffix('/').unwrap_or(body);
@@ -186,6 +186,7 @@ fn tag(text: &str) -> Option<Found> {
         return Some((0, COLON));
     }
     let mut rest = &body[name.len()..];
+    let mut has_default = false;
     let at = |rest: &str| rest.as_ptr() as usize - text.as_ptr() as usize;
     loop {
         rest = rest.trim_start_matches(is_space);
@@ -202,6 +203,12 @@ fn tag(text: &str) -> Option<Found> {
         }
         if name == "xmlns:xmlns" {
             return Some((at(rest), OWN_PREFIX));
+        }
+        if name == "xmlns" && std::mem::replace(&mut has_default, true) {
+            return Some((at(rest), TWICE));
+        }
+        if name.ends_with(":xmlns") {
+            not_default.push(start + at(rest) + name.len() - "xmlns".len());
         }
         if let Some(fault) = references(value, at(value)) {
             return Some(fault);

@@ -17,17 +17,24 @@ pub struct Document<'t>(roxmltree::Document<'t>);
 /// namespaces.
 pub fn parse(text: &str, kind: Kind) -> Result<Document<'_>, XmlError> {
     check::limits(text, kind)?;
-    if kind == Kind::Robot {
-        check::strict(text)?;
-    }
+    let not_default = if kind == Kind::Robot { check::strict(text)? } else { Vec::new() };
     tally::count("roxmltree");
+    if !not_default.is_empty() {
+        // Is the prefix declared, and the attribute there once?
+        let mut renamed = text.to_owned();
+        not_default.iter().for_each(|at| renamed.replace_range(*at..at + 5, "xml_s"));
+        parsed(&renamed, kind)?;
+    }
+    parsed(text, kind).map(Document)
+}
+
+fn parsed(text: &str, kind: Kind) -> Result<roxmltree::Document<'_>, XmlError> {
     let options = ParsingOptions {
         allow_dtd: kind != Kind::Other,
         nodes_limit: u32::try_from(MAX_NODES).unwrap_or(u32::MAX),
         ..ParsingOptions::default()
     };
-    let document = roxmltree::Document::parse_with_options(text, options);
-    document.map(Document).map_err(XmlError::Parser)
+    roxmltree::Document::parse_with_options(text, options).map_err(XmlError::Parser)
 }
 
 impl<'t> Document<'t> {

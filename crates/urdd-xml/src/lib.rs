@@ -11,24 +11,24 @@
 //! [`Counted`].
 
 mod check;
-mod doctype;
 mod document;
 pub mod element;
 mod error;
 mod mended;
 pub mod number;
 pub mod other_parts;
+mod prolog;
 #[doc(hidden)]
 pub mod tally;
 pub mod tinyxml2;
 pub mod writer;
 
 pub use check::{root_name, wrong_version};
-pub use doctype::is_character;
 pub use document::{Counted, Document, Xml, parse};
 pub use error::{
     Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_NODES, MAX_PREFIXES, MAX_ROBOT_ELEMENTS, XmlError,
 };
 pub use mended::{Mended, parse_leniently};
+pub use prolog::is_character;
 pub use quick_xml::escape::escape;
 pub use roxmltree::{Attribute, Error as ParserError, Node, NodeId, StringStorage, TextPos};

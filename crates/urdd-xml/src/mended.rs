@@ -10,9 +10,9 @@ use std::collections::BTreeSet;
 use quick_xml::escape::escape;
 use roxmltree::Error;
 
-use crate::doctype::is_character;
 use crate::document::{Document, parse};
 use crate::error::{Kind, MAX_LEVELS, XmlError, text_pos};
+use crate::prolog::is_character;
 use crate::tinyxml2::{Attribute, Event, Malformed, Parser};
 
 /// The text that was made of one that is no XML; empty of one that is.

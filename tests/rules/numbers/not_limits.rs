@@ -28,6 +28,7 @@ pub const NOT_LIMITS: &[(&str, &str)] = &[
     ("10.5", "In `dof_module` 0.0.1 mimic"),
     ("10.8", "`chain_module` 0.0.1 has"),
     ("11.1", "draft 2020-12"),
+    ("11.1", "as in ECMA-262 of 2020"),
     // Clauses of this text, which have no number of their own.
     ("3.3.1", "fulfils 3.2."),
     ("11.5", "clauses 6 to 8"),
@@ -55,6 +56,8 @@ pub const NOT_LIMITS: &[(&str, &str)] = &[
     ("8.5", "within some 3e-6 of that length"),
     ("8.8.11", "z = 1.959963984540054"),
     ("10.3", "this makes [0, 1e-7]"),
+    ("11.1", "so that they take 9007199254740993 for 9007199254740992"),
+    ("11.1", "beyond 2^53, and whether 0.3 is a `multipleOf` 0.1"),
     ("13.5", "`num_samples` of 1e9"),
     (
         "9.3",

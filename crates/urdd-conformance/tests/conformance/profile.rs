@@ -1,9 +1,12 @@
 //! The profile `core-json`: which cases a validator of Core modules by their JSON can decide.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
+use serde_json::Value;
 use urdd_conformance::export::{Item, items};
 use urdd_conformance::suite::{CaseKind, Verdict};
+use urdd_conformance::tree::{Node, Tree};
+use urdd_directory::file_entry::hashes;
 
 use crate::suite;
 
@@ -50,6 +53,62 @@ fn faults_are_in_what_the_profile_reads() {
             .iter()
             .any(|item| item.code.as_deref() == Some("DIR012") && item.kind == CaseKind::Invalid)
     );
+}
+
+/// A validator of the profile sees another URDD than the base, which it accepts. What it does not read may differ at will.
+#[test]
+fn what_the_profile_reads_decides_its_cases() {
+    let suite = suite();
+    let items = items(&suite).expect("the suite reads");
+    let mut compared = 0;
+    for (item, case) in items.iter().skip(suite.data.robots().len()).zip(suite.all_cases()) {
+        assert_eq!(item.id, case.id());
+        if item.profiles.is_empty() || item.verdict != Verdict::Reject || case.changes.is_empty() {
+            continue;
+        }
+        let urdd = suite.tree(case).expect("a case");
+        assert_ne!(read(&urdd), read(&suite.bases[&case.base]), "{}: nothing it reads", item.id);
+        compared += 1;
+    }
+    assert!(compared > 300, "{compared}");
+}
+
+/// What the profile reads of a URDD: `urdd.json`, with whether each listed file is as it says; documents and versions of
+/// Core modules; the source; and the names of what is in modules, or may be one.
+fn read(urdd: &Tree) -> BTreeMap<String, Vec<u8>> {
+    let metadata = urdd.file("urdd.json").unwrap_or_default();
+    let mut read = BTreeMap::from([("urdd.json".to_owned(), metadata.to_vec())]);
+    if let Ok(mut value) = serde_json::from_slice::<Value>(metadata) {
+        let modules = value["modules"].as_array_mut().into_iter().flatten();
+        for file in modules.filter_map(|module| module["files"].as_array_mut()).flatten() {
+            let bytes = file["path"].as_str().and_then(|path| urdd.file(path));
+            let hash = bytes.map(|mut bytes| hashes(&mut bytes, false).expect("bytes").plain);
+            let is_right = hash.as_deref() == file["sha256"].as_str()
+                && bytes.map(|bytes| bytes.len() as u64) == file["size"].as_u64();
+            file["sha256"] = is_right.into();
+            if is_right {
+                file["size"] = Value::Null;
+            }
+        }
+        read.insert("urdd.json".to_owned(), value.to_string().into_bytes());
+    }
+    for (path, node) in &urdd.nodes {
+        let path = String::from_utf8_lossy(path.as_bytes()).into_owned();
+        let last = path.rsplit('/').next().unwrap_or_default();
+        let is_core = path.ends_with("_module/module.json") && path.matches('/').count() == 1;
+        let content = match node {
+            Node::File(bytes) if is_core || last == "VERSION" || last.ends_with(".urdf") => {
+                bytes.to_vec()
+            }
+            Node::File(_) => Vec::new(),
+            other => format!("{other:?}").into_bytes(),
+        };
+        let is_of_module = path.contains("_module") && last != "module.yaml";
+        if is_of_module || !path.contains('/') {
+            read.entry(path).or_insert(content);
+        }
+    }
+    read
 }
 
 #[test]

@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::io::{self, Cursor, Read};
 use std::path::Path;
+use std::str::Utf8Chunk;
 use std::sync::Arc;
 
 use flate2::Crc;
@@ -16,7 +17,7 @@ use flate2::bufread::DeflateDecoder;
 use super::memory::{Item, Node, Tree};
 use super::zip_list::{self, Listed, Packed, entry_fault};
 use super::{OpenFile, Source};
-use crate::file_type::{FileType, ROOT_METADATA, RobotFile};
+use crate::file_type::ROOT_METADATA;
 use crate::limits::{
     MAX_ARCHIVE_BYTES, MAX_DOCUMENT_BYTES, MAX_INFLATED_BYTES, MAX_INFLATION, MAX_NAME_BYTES,
     MAX_PART_BYTES, SMALL_ARCHIVE_BYTES,
@@ -34,17 +35,6 @@ const DEFLATED: u16 = 8;
 
 /// Folder that macOS adds to archives.
 const MACOS_FOLDER: &str = "__MACOSX";
-
-/// Whether a file is a zip archive, by its first bytes, or by its extension if its content is no robot's description.
-pub fn is_archive(path: &Path) -> bool {
-    let begins = || {
-        let mut start = [0; 4];
-        regular::open(path).ok()?.read_exact(&mut start).ok()?;
-        Some(matches!(&start, b"PK\x03\x04" | b"PK\x05\x06"))
-    };
-    let is_named = || FileType::Archive.is_of(path) && RobotFile::at(path).is_none();
-    path.is_file() && (begins().unwrap_or(false) || is_named())
-}
 
 /// The shared bytes of an archive.
 #[derive(Clone)]
@@ -98,6 +88,10 @@ impl Archive {
             return Err(ArchiveFault::Zip64);
         }
         let mut members = members(&bytes, exact)?;
+        let mut paths = BTreeSet::new();
+        if let Some(member) = members.iter().find(|member| !paths.insert(&*member.path)) {
+            return Err(entry_fault(member.path.as_bytes(), EntryFault::Duplicate));
+        }
         let folder = urdd_folder(&members)?;
         if !folder.is_empty() {
             members.retain_mut(|member| match member.path.split_once('/') {
@@ -149,9 +143,13 @@ impl Source for Archive {
     }
 }
 
-/// The name of an entry of a URDD.
+/// The name of an entry of a URDD. Two that are not UTF-8 stay two.
 fn exact(entry: &Listed<'_>) -> String {
-    String::from_utf8_lossy(entry.name).into_owned()
+    let text = |chunk: Utf8Chunk<'_>| {
+        let odd = chunk.invalid().iter().map(|byte| format!("\u{fffd}{byte:02X}"));
+        chunk.valid().to_owned() + &odd.collect::<String>()
+    };
+    entry.name.utf8_chunks().map(text).collect()
 }
 
 /// The name of an entry, as the program meant it that packed it.
@@ -160,8 +158,7 @@ fn as_packed(entry: &Listed<'_>) -> String {
         Ok(name) => name.to_owned(),
         Err(_) => entry.name.iter().map(|byte| in_code_page_437(*byte)).collect(),
     };
-    let name = if entry.is_of_windows { name.replace('\\', "/") } else { name };
-    name.strip_prefix("./").map(str::to_owned).unwrap_or(name)
+    if entry.is_of_windows { name.replace('\\', "/") } else { name }
 }
 
 fn in_code_page_437(byte: u8) -> char {
@@ -176,38 +173,40 @@ fn members(bytes: &Bytes, name_of: fn(&Listed<'_>) -> String) -> Result<Vec<Memb
     let all = bytes.all();
     let listed = zip_list::read(all)?;
     let limit = MAX_INFLATED_BYTES.min(SMALL_ARCHIVE_BYTES + MAX_INFLATION * all.len() as u64);
+    let mut paths = Vec::with_capacity(listed.len());
     for entry in &listed {
-        check(entry, &name_of(entry)).map_err(|fault| entry_fault(entry.name, fault))?;
+        let path = check(entry, &name_of(entry));
+        paths.push(path.map_err(|fault| entry_fault(entry.name, fault))?);
     }
     // Check the total size before inflating anything.
     let size = listed.iter().map(|entry| entry.packed.size).sum();
     if size > limit {
         return Err(ArchiveFault::Inflates { size, limit });
     }
-    let read = |entry: &Listed<'_>| {
-        member(bytes, entry, &name_of(entry)).map_err(|error| {
+    let read = |(entry, path): (&Listed<'_>, String)| {
+        let node = node(bytes, entry).map_err(|error| {
             let reason = error.to_string();
             entry_fault(entry.name, EntryFault::Damaged { reason })
-        })
+        })?;
+        Ok(Item { path, utf8: std::str::from_utf8(entry.name).is_ok(), node })
     };
-    listed.iter().map(read).collect()
+    // What is packed from `.` has an entry for that.
+    let inside = listed.iter().zip(paths).filter(|(_, path)| !path.is_empty());
+    inside.map(read).collect()
 }
 
 const KIND_FOLDER: u32 = 0o040_000;
-const KIND_FILE: u32 = 0o100_000;
 const KIND_LINK: u32 = 0o120_000;
 
-/// Checks an entry without inflating it.
-fn check(entry: &Listed<'_>, name: &str) -> Result<(), EntryFault> {
+/// Checks an entry without inflating it. Returns its path; "" for the archive itself.
+fn check(entry: &Listed<'_>, name: &str) -> Result<String, EntryFault> {
     let length = entry.name.len();
     let part = entry.name.split(|byte| *byte == b'/').map(<[u8]>::len).max();
     if length > MAX_NAME_BYTES || part > Some(MAX_PART_BYTES) {
         return Err(EntryFault::LongName { length, limit: MAX_NAME_BYTES, part: MAX_PART_BYTES });
     }
-    let path = name.strip_suffix('/').unwrap_or(name);
-    // What is packed from `.` has an entry for that.
-    let is_top = name.is_empty() && entry.name == b"./";
-    if !is_top && !is_inside(path) {
+    let path = path_inside(name).ok_or(EntryFault::Path)?;
+    if path.is_empty() && !is_named_as_folder(entry) {
         return Err(EntryFault::Path);
     }
     if entry.is_encrypted {
@@ -222,59 +221,72 @@ fn check(entry: &Listed<'_>, name: &str) -> Result<(), EntryFault> {
         return Err(EntryFault::TooLarge { size, limit });
     }
     match entry.packed.method {
-        STORED | DEFLATED => Ok(()),
+        STORED | DEFLATED => Ok(path),
         method => Err(EntryFault::Method { method }),
     }
 }
 
 /// Reads an entry to its end.
-fn member(bytes: &Bytes, entry: &Listed<'_>, name: &str) -> io::Result<Member> {
-    let path = name.strip_suffix('/').unwrap_or(name).to_owned();
+fn node(bytes: &Bytes, entry: &Listed<'_>) -> io::Result<Node<Packed>> {
     let data = entry.packed;
     let mut file = inflate(bytes, &data);
-    let node = match entry.kind {
-        KIND_LINK => {
-            let mut target = Vec::new();
-            file.read_to_end(&mut target)?;
-            Node::Link(String::from_utf8_lossy(&target).into_owned())
-        }
-        kind => {
-            io::copy(&mut file, &mut io::sink())?;
-            match kind {
-                _ if name.ends_with('/') => Node::Folder,
-                KIND_FOLDER => Node::Folder,
-                0 | KIND_FILE => Node::File { size: data.size, data },
-                _ => Node::Other,
-            }
-        }
-    };
-    Ok(Item { path, utf8: std::str::from_utf8(entry.name).is_ok(), node })
+    if entry.kind == KIND_LINK {
+        let mut target = Vec::new();
+        file.read_to_end(&mut target)?;
+        return Ok(Node::Link(String::from_utf8_lossy(&target).into_owned()));
+    }
+    io::copy(&mut file, &mut io::sink())?;
+    Ok(match entry.kind == KIND_FOLDER || is_named_as_folder(entry) {
+        true => Node::Folder,
+        false => Node::File { size: data.size, data },
+    })
 }
 
-/// Whether a name is a relative path that stays inside the archive on every system. The rules report other violations
-/// of SPEC 2.8, as they do for a folder.
-fn is_inside(path: &str) -> bool {
-    let mut parts = path.split('/');
-    let is_drive = matches!(path.as_bytes(), [drive, b':', ..] if drive.is_ascii_alphabetic());
-    !is_drive && !path.contains(['\\', '\0']) && parts.all(|part| !matches!(part, "" | "." | ".."))
+fn is_named_as_folder(entry: &Listed<'_>) -> bool {
+    let is_separator = |byte: &u8| *byte == b'/' || (*byte == b'\\' && entry.is_of_windows);
+    let last = entry.name.rsplit(is_separator).next();
+    matches!(last, Some(b"" | b"." | b".."))
+}
+
+/// The path of a name without `.`, `..` and empty parts; `None` if it leads out of the archive on any system. The rules
+/// report other violations of SPEC 2.8, as they do for a folder.
+fn path_inside(name: &str) -> Option<String> {
+    let is_drive = matches!(name.as_bytes(), [drive, b':', ..] if drive.is_ascii_alphabetic());
+    if is_drive || name.starts_with(['/', '\\']) || name.contains('\0') {
+        return None;
+    }
+    let parts = |separators: &[char]| {
+        name.split(separators).try_fold(Vec::new(), |mut parts, part| {
+            match part {
+                "" | "." => {}
+                ".." => drop(parts.pop()?),
+                part => parts.push(part),
+            }
+            Some(parts)
+        })
+    };
+    parts(&['/', '\\'])?;
+    Some(parts(&['/'])?.join("/"))
 }
 
 /// The folder in the archive that is the URDD's root; "" for the archive itself.
 fn urdd_folder(members: &[Member]) -> Result<String, ArchiveFault> {
-    let is_of_root = |path: &str| {
+    let is_of_root = |member: &Member, path: &str| {
         let is_module = |kind: &ModuleKind| {
             path.strip_prefix(kind.folder())
                 .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
         };
-        path == ROOT_METADATA || ModuleKind::ALL.iter().any(is_module)
+        (path == ROOT_METADATA && !matches!(member.node, Node::Folder))
+            || ModuleKind::ALL.iter().any(is_module)
     };
-    if members.iter().any(|member| is_of_root(&member.path)) {
+    if members.iter().any(|member| is_of_root(member, &member.path)) {
         return Ok(String::new());
     }
-    let below = members.iter().filter_map(|member| member.path.split_once('/'));
-    let tops: BTreeSet<&str> = below
-        .filter(|(top, rest)| *top != MACOS_FOLDER && is_of_root(rest))
-        .map(|(top, _)| top)
+    let tops: BTreeSet<&str> = members
+        .iter()
+        .filter_map(|member| Some((member, member.path.split_once('/')?)))
+        .filter(|(member, (top, rest))| *top != MACOS_FOLDER && is_of_root(member, rest))
+        .map(|(_, (top, _))| top)
         .collect();
     let mut found = tops.into_iter();
     match (found.next(), found.next()) {

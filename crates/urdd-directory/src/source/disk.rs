@@ -32,7 +32,12 @@ use urdd_format::registry::ModuleKind;
 
 /// Whether a folder is the root of a URDD: it contains `urdd.json`, or a module's folder.
 pub fn is_urdd(folder: &Path) -> bool {
-    folder.join(ROOT_METADATA).is_file()
+    let metadata = folder.join(ROOT_METADATA);
+    let is_inside = || {
+        let places = metadata.canonicalize().ok().zip(folder.canonicalize().ok());
+        places.is_some_and(|(file, folder)| file.starts_with(folder))
+    };
+    metadata.is_file() && (!metadata.is_symlink() || is_inside())
         || ModuleKind::ALL.iter().any(|kind| folder.join(kind.folder()).is_dir())
 }
 

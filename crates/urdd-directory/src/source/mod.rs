@@ -12,7 +12,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::listing::{Listing, ReadError};
-pub use archive::{Archive, is_archive};
+pub use archive::Archive;
 pub use disk::{Disk, Stamp, is_urdd};
 pub use memory::{Item, Lend, Memory, Node, Tree};
 

@@ -17,6 +17,8 @@ const HEADER_LENGTH: usize = 30;
 /// The signature that most programs write before a data descriptor.
 const DESCRIPTOR: &[u8] = b"PK\x07\x08";
 
+const SPLIT: &str = "it is one part of a split archive";
+
 /// Bits of an entry's flags.
 const ENCRYPTED: u16 = 1;
 const HAS_DESCRIPTOR: u16 = 1 << 3;
@@ -72,7 +74,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Listed<'_>>, ArchiveFault> {
     let record = Fields(&bytes[end..]);
     let (stated, size, start) = (record.short(10), record.word(12), record.word(16));
     if record.short(4) != 0 || record.short(6) != 0 || record.short(8) != stated {
-        return Err(broken("it is one part of a split archive"));
+        return Err(broken(SPLIT));
     }
     let (start, size) = (start as usize, size as usize);
     if start.checked_add(size) != Some(end) {
@@ -145,6 +147,9 @@ fn entry<'a>(
 ) -> Result<(Listed<'a>, Place), ArchiveFault> {
     let fail = |fault| Err(entry_fault(name, fault));
     let (crc, packed, size) = (fields.word(16), fields.word(20), fields.word(24));
+    if fields.short(34) != 0 {
+        return Err(broken(SPLIT));
+    }
     let begin = fields.word(42) as usize;
     let Some(header) = Fields::at(bytes, begin, list, HEADER, HEADER_LENGTH) else {
         return fail(damaged("its own header is not where the list says"));

@@ -340,6 +340,10 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         if error.info() == "recursion limit exceeded" {
             return self.too_deep(at);
         }
+        // An alias is the fault, whether it leads to something or not.
+        if error.info().ends_with("unknown anchor") {
+            return self.alias(at);
+        }
         let message = open::unparsed(text, error);
         self.report(at, TextFaultKind::YamlSyntax, &message);
     }

@@ -8,6 +8,7 @@ mod archives;
 mod canonical;
 mod digest;
 mod document;
+mod file_type;
 mod json;
 mod json_places;
 mod json_scan;

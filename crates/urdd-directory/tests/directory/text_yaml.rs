@@ -180,7 +180,7 @@ fn anchors_aliases_and_merge_keys_are_reported_and_not_expanded() {
     assert_eq!(faults.total(Kind::YamlMergeKey), 1);
     assert_eq!(faults.totals().count(), 2);
     expect("a: {<<: {p: 1}}", json!({"a": {"p": 1}}), Kind::YamlMergeKey, "/a/<<", (1, 5));
-    expect("a: *x", json!({"a": 1}), Kind::YamlSyntax, "/a", (1, 4));
+    expect("a: *x", json!({"a": 1}), Kind::YamlAnchorOrAlias, "/a", (1, 4));
 }
 
 #[test]

@@ -11,11 +11,11 @@ use super::error::{PartFault, Result};
 use super::recipe::{Part, Recipe, Sources};
 use crate::Settings;
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::file_type::FileType;
+use urdd_directory::file_type::{FileType, is_archive};
 use urdd_directory::json;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;
-use urdd_directory::source::{is_archive, is_urdd};
+use urdd_directory::source::is_urdd;
 use urdd_format::escape;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

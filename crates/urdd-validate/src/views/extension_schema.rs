@@ -2,15 +2,16 @@
 //! as the rest of the URDD.
 
 use std::borrow::Cow;
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use jsonschema::error::ValidationErrorKind;
 use jsonschema::{ValidationError, ValidationOptions, Validator};
-use serde_json::Value;
+use serde_json::{Number, Value};
 
 use super::annotated::{self, Counts, Judged};
 use super::pattern;
-use super::schema_work::{affordable_work, schemas_in};
+use super::schema_work::{affordable_work, anchors, definitions, escaped, schemas_in, targets};
 use urdd_directory::json;
 use urdd_directory::root::ReadError;
 use urdd_document::module::Module;
@@ -101,6 +102,7 @@ pub fn violations(
             None => options(),
         };
         let Ok(validator) = compile(options, schema) else { return Violations::default() };
+        let document = &*in_binary64(document);
         let Err(first) = validator.validate(document) else { return Violations::default() };
         let is_first_only =
             affordable_work(schema, document).is_none_or(|work| work > WORK_FOR_ALL_VIOLATIONS);
@@ -176,10 +178,41 @@ fn options<'i>() -> ValidationOptions<'i> {
 }
 
 fn compile(options: ValidationOptions<'_>, schema: &Value) -> Result<Validator, SchemaFault> {
-    options.build(&with_patterns_of_the_library(schema)).map_err(|error| SchemaFault {
+    let fault = |error: &ValidationError<'_>| SchemaFault {
         pointer: error.instance_path().to_string(),
         message: error.to_string().chars().take(300).collect(),
-    })
+    };
+    jsonschema::draft202012::meta::validate(schema).map_err(|error| fault(&error))?;
+    options.build(&for_the_library(schema)).map_err(|error| fault(&error))
+}
+
+/// A value whose numbers are those of binary64 (SPEC 11.1). The library compares integers exactly.
+fn in_binary64(value: &Value) -> Cow<'_, Value> {
+    fn is_large(number: &Number) -> bool {
+        const EXACT: u64 = 1 << f64::MANTISSA_DIGITS;
+        number.as_i64().map(i64::unsigned_abs).or(number.as_u64()).is_some_and(|n| n >= EXACT)
+    }
+    fn has_large(value: &Value) -> bool {
+        match value {
+            Value::Number(number) => is_large(number),
+            Value::Array(items) => items.iter().any(has_large),
+            Value::Object(map) => map.values().any(has_large),
+            _ => false,
+        }
+    }
+    fn rounded(value: &mut Value) {
+        match value {
+            Value::Number(number) if is_large(number) => *value = number.as_f64().into(),
+            Value::Array(items) => items.iter_mut().for_each(rounded),
+            Value::Object(map) => map.values_mut().for_each(rounded),
+            _ => {}
+        }
+    }
+    let mut value = Cow::Borrowed(value);
+    if has_large(&value) {
+        rounded(value.to_mut());
+    }
+    value
 }
 
 /// A browser has no spare thread; its stack size is set at link time (`.cargo/config.toml`).
@@ -216,20 +249,10 @@ fn parts(schema: &Value) -> Vec<(String, &Value)> {
         parts.extend(
             schemas_in(schema).map(|(inner, schema, _)| (pointer.clone() + &inner, schema)),
         );
-        let definitions = schema.get("$defs").and_then(Value::as_object);
-        parts.extend(
-            definitions
-                .into_iter()
-                .flatten()
-                .map(|(name, schema)| (format!("{pointer}/$defs/{}", escaped(name)), schema)),
-        );
+        let definitions = definitions(schema);
+        parts.extend(definitions.map(|(inner, schema)| (pointer.clone() + &inner, schema)));
     }
     parts
-}
-
-/// A key as a part of a JSON Pointer.
-fn escaped(key: &str) -> String {
-    key.replace('~', "~0").replace('/', "~1")
 }
 
 /// The patterns of a schema, not those in it, with their pointers behind its own.
@@ -241,17 +264,25 @@ fn patterns(schema: &Value) -> impl Iterator<Item = (String, &str)> {
     one.into_iter().map(|one| ("/pattern".to_owned(), one)).chain(keys)
 }
 
-/// The schema with patterns that the library reads as JavaScript reads those that are there.
-fn with_patterns_of_the_library(schema: &Value) -> Cow<'_, Value> {
-    let mut all = Cow::Borrowed(schema);
+/// The schema as the library has to have it: with patterns that it reads as JavaScript reads those that are there, and
+/// without what it takes for more than SPEC 11.1 does: names of the schema that it wants to be URIs, and a keyword of draft 7.
+fn for_the_library(schema: &Value) -> Cow<'_, Value> {
+    let mut all = in_binary64(schema);
+    for key in ["$schema", "$id"] {
+        if schema.get(key).is_some() {
+            all.to_mut().as_object_mut().map(|schema| schema.remove(key));
+        }
+    }
     let read = pattern::in_words_of_the_library;
     let in_words = |text: &str| read(text).map_or_else(|_| text.to_owned(), Cow::into_owned);
     // Those inside first: the pointers to them have the patterns as they were.
     for (pointer, part) in parts(schema).iter().rev() {
-        if !patterns(part).any(|(_, text)| matches!(read(text), Ok(Cow::Owned(_)))) {
+        let is_old = part.get("dependencies").is_some();
+        if !is_old && !patterns(part).any(|(_, text)| matches!(read(text), Ok(Cow::Owned(_)))) {
             continue;
         }
         let Some(Value::Object(part)) = all.to_mut().pointer_mut(pointer) else { continue };
+        part.remove("dependencies");
         if let Some(Value::String(text)) = part.get_mut("pattern") {
             *text = in_words(text);
         }
@@ -271,24 +302,29 @@ fn with_patterns_of_the_library(schema: &Value) -> Cow<'_, Value> {
 
 /// References that leave the schema's own file, constructs that would make references ambiguous, annotations that are not
 /// defined, and texts that are no patterns.
-pub fn faults_of_parts(schema: &Value) -> Vec<SchemaFault> {
+pub fn faults_of_parts(root: &Value) -> Vec<SchemaFault> {
     let mut faults = Vec::new();
-    for (of_part, schema) in parts(schema) {
+    let (anchors, parts) = (anchors(root), parts(root));
+    let schemas: HashSet<*const Value> =
+        parts.iter().map(|(_, part)| std::ptr::from_ref(*part)).collect();
+    for (of_part, schema) in parts {
         let mut fault = |at: &str, message: String| {
             faults.push(SchemaFault { pointer: of_part.clone() + at, message });
         };
         for key in ["$ref", "$dynamicRef"] {
-            if let Some(target) = schema.get(key).and_then(Value::as_str)
-                && !target.starts_with('#')
-            {
-                let shown: String = target.chars().take(80).collect();
-                fault(
-                    &format!("/{key}"),
-                    format!(
-                        "`{shown}` leads out of this file, and nothing else is opened: put what it names into `$defs`, and refer to it by `#/$defs/...`"
-                    ),
-                );
-            }
+            let Some(target) = schema.get(key).and_then(Value::as_str) else { continue };
+            let shown: String = target.chars().take(80).collect();
+            let what = match &*targets(root, &anchors, target) {
+                _ if !target.starts_with('#') => {
+                    "leads out of this file, and nothing else is opened: put what it names into `$defs`, and refer to it by `#/$defs/...`"
+                }
+                [_, _, ..] => "names an anchor that several schemas have: give each another name",
+                [one] if !schemas.contains(&std::ptr::from_ref(*one)) => {
+                    "leads to what is no schema, or is inside a keyword that says nothing: put it into `$defs`"
+                }
+                _ => continue,
+            };
+            fault(&format!("/{key}"), format!("`{shown}` {what}"));
         }
         for annotation in schema.as_object().map(annotations::faults).unwrap_or_default() {
             fault(&format!("/{}", annotation.keyword), annotation.to_string());

@@ -34,6 +34,9 @@ const LISTS: &[(&str, bool)] =
 const MAPS: &[(&str, bool)] =
     &[("dependentSchemas", false), ("properties", true), ("patternProperties", true)];
 
+/// Keywords of lists, as pointers begin. Others that apply to the values inside a value are of objects.
+const OF_LISTS: [&str; 4] = ["/items", "/prefixItems", "/contains", "/unevaluatedItems"];
+
 /// The schemas inside a schema, each with its pointer and whether it applies to the values inside the value.
 pub fn schemas_in(schema: &Value) -> impl Iterator<Item = (String, &Value, bool)> {
     let object = schema.as_object();
@@ -50,11 +53,13 @@ pub fn schemas_in(schema: &Value) -> impl Iterator<Item = (String, &Value, bool)
         list.iter().enumerate().map(move |(i, schema)| (format!("/{key}/{i}"), schema, inner))
     }))
     .chain(maps.flat_map(|(key, map, inner)| {
-        map.iter().map(move |(name, schema)| {
-            let name = name.replace('~', "~0").replace('/', "~1");
-            (format!("/{key}/{name}"), schema, inner)
-        })
+        map.iter().map(move |(name, schema)| (format!("/{key}/{}", escaped(name)), schema, inner))
     }))
+}
+
+/// A key as a part of a JSON Pointer.
+pub fn escaped(key: &str) -> String {
+    key.replace('~', "~0").replace('/', "~1")
 }
 
 /// The work of checking a document, if it is within the limit. Nested choices multiply, so a page of schema can demand
@@ -118,20 +123,51 @@ fn count_values(value: &Value) -> u64 {
     }
 }
 
-fn anchors(schema: &Value) -> HashMap<&str, Vec<&Value>> {
+/// The schemas inside a schema that have an anchor, each once, by its name.
+pub fn anchors(schema: &Value) -> HashMap<&str, Vec<&Value>> {
     let mut anchors: HashMap<&str, Vec<&Value>> = HashMap::new();
     let mut open = vec![schema];
     while let Some(schema) = open.pop() {
         for key in ["$anchor", "$dynamicAnchor"] {
-            if let Some(name) = schema.get(key).and_then(Value::as_str) {
-                anchors.entry(name).or_default().push(schema);
+            let Some(name) = schema.get(key).and_then(Value::as_str) else { continue };
+            let named = anchors.entry(name).or_default();
+            if !named.last().is_some_and(|last| std::ptr::eq(*last, schema)) {
+                named.push(schema);
             }
         }
         open.extend(schemas_in(schema).map(|(_, schema, _)| schema));
-        let definitions = schema.get("$defs").and_then(Value::as_object);
-        open.extend(definitions.into_iter().flat_map(|map| map.values()));
+        open.extend(definitions(schema).map(|(_, schema)| schema));
     }
     anchors
+}
+
+/// The schemas inside a schema that say nothing by themselves, each with its pointer.
+pub fn definitions(schema: &Value) -> impl Iterator<Item = (String, &Value)> {
+    let of = move |key: &'static str| {
+        let map = schema.get(key).and_then(Value::as_object);
+        map.into_iter()
+            .flatten()
+            .map(move |(name, schema)| (format!("/{key}/{}", escaped(name)), schema))
+    };
+    let content = schema.get("contentSchema").map(|schema| ("/contentSchema".to_owned(), schema));
+    of("$defs").chain(of("definitions")).chain(content)
+}
+
+/// What a reference leads to.
+pub fn targets<'a>(
+    root: &'a Value,
+    anchors: &HashMap<&str, Vec<&'a Value>>,
+    reference: &str,
+) -> Vec<&'a Value> {
+    let Some(fragment) = reference.strip_prefix('#') else { return Vec::new() };
+    if fragment.is_empty() || fragment.starts_with('/') {
+        // A name with an escape (%25) is rare. A name that is not found costs nothing here, and is expensive later,
+        // so both spellings are tried.
+        let decoded = || percent_decode_str(fragment).decode_utf8_lossy();
+        let found = root.pointer(fragment).or_else(|| root.pointer(&decoded()));
+        return found.into_iter().collect();
+    }
+    anchors.get(fragment).cloned().unwrap_or_default()
 }
 
 struct Estimate<'a> {
@@ -181,7 +217,7 @@ impl<'a> Estimate<'a> {
         }
         for key in ["$ref", "$dynamicRef"] {
             if let Some(Value::String(target)) = keywords.get(key) {
-                for target in self.targets(target) {
+                for target in targets(self.root, &self.anchors, target) {
                     work = work.saturating_add(self.work(target, value, depth + 1)?);
                 }
             }
@@ -203,9 +239,10 @@ impl<'a> Estimate<'a> {
                 }
                 continue;
             }
+            let is_of_lists = OF_LISTS.iter().any(|keyword| pointer.starts_with(keyword));
             let values: Box<dyn Iterator<Item = &'a Value>> = match value {
-                Value::Array(items) => Box::new(items.iter()),
-                Value::Object(map) => Box::new(map.values()),
+                Value::Array(items) if is_of_lists => Box::new(items.iter()),
+                Value::Object(map) if !is_of_lists => Box::new(map.values()),
                 _ => Box::new(std::iter::empty()),
             };
             for value in values {
@@ -221,23 +258,5 @@ impl<'a> Estimate<'a> {
         }
         self.known.insert(key, work);
         Some(work)
-    }
-
-    fn targets(&self, reference: &str) -> Vec<&'a Value> {
-        let Some(fragment) = reference.strip_prefix('#') else { return Vec::new() };
-        if fragment.is_empty() || fragment.starts_with('/') {
-            // A name with an escape (%25) is rare. A name that is not found costs nothing here, and is expensive later,
-            // so both spellings are tried.
-            return self
-                .root
-                .pointer(fragment)
-                .or_else(|| {
-                    let decoded = percent_decode_str(fragment).decode_utf8_lossy();
-                    self.root.pointer(&decoded)
-                })
-                .into_iter()
-                .collect();
-        }
-        self.anchors.get(fragment).cloned().unwrap_or_default()
     }
 }

@@ -192,11 +192,16 @@ fn faults_that_the_parser_does_not_see_are_faults() {
         ("<r>&#0;</r>", "1:4: a reference"),
         ("<r>&#xFFFE;</r>", "1:4: a reference"),
         ("<?XML version='1.0'?><r/>", "1:1: `<?xml"),
-        ("<?xml version='1.0' standalone='maybe'?><r/>", "1:1: `standalone`"),
         ("<r xmlns:q=''/>", "1:4: a prefix"),
         ("<r><:c/></r>", "1:5: a name"),
         ("<r :a='1'/>", "1:4: a name"),
         ("<r><?a:b c?></r>", "1:4: the target"),
+        ("<r xmlns='a' xmlns='b'/>", "1:14: an element has the attribute `xmlns` twice"),
+        ("<r a:xmlns='u'/>", "1:4: the prefix `a` is not declared"),
+        (
+            "<r xmlns:a='u' a:xmlns='' a:xmlns=''/>",
+            "1:27: an element has the attribute `xml_s` twice",
+        ),
     ] {
         let error = result(text).unwrap_err();
         assert!(error.starts_with(expected), "{text:?}: {error}");
@@ -207,8 +212,63 @@ fn faults_that_the_parser_does_not_see_are_faults() {
         "<r xmlns='' a='xmlns:q=\"\"'/>",
         "<r><!-- &#0; <:c/> <?XML?> --><![CDATA[&#0;<:c/>]]><?p &#0; <:c/> a:b ?></r>",
         "<r><?xml-model a:b?><a b = ':' c=\"'>:\"/></r>",
+        "<r xmlns:a='u' xmlns='v' a:xmlns='w'/>",
     ] {
         assert_eq!(result(text), Ok(()), "{text}");
+    }
+}
+
+/// What is right is what Expat 2 reads (`xml.parsers.expat` of Python 3.11).
+#[test]
+fn declarations_and_instructions_are_read_as_by_expat() {
+    let begin = "<?xml version='1.0'";
+    for text in [
+        "<?xml\tversion\n=\r'1.0'?><r/>",
+        &format!("{begin} encoding = 'utf-8'\tstandalone\t=\"no\" ?><r/>"),
+        &format!("{begin} standalone='yes'?><r/>"),
+        "<?p?><r><?p ?><?p ?a?b?><?p\n<&?></r><?xmlx a?>",
+    ] {
+        assert_eq!(result(text), Ok(()), "{text}");
+    }
+    let declarations = [
+        "<?xml?>",
+        "<?xml ?>",
+        "<?xml encoding='utf-8'?>",
+        "<?xml versionx='1.0'?>",
+        "<?xml\tversion='1.0\"?>",
+        "<?xml\nversion=1.0?>",
+        &format!("{begin}encoding='utf-8'?>"),
+        &format!("{begin} encodingx='utf-8'?>"),
+        &format!("{begin} standalone='maybe'?>"),
+        &format!("{begin} standalone='YES'?>"),
+        &format!("{begin} standalone=''?>"),
+        &format!("{begin} standalone='yes' encoding='utf-8'?>"),
+        &format!("{begin} encoding='utf-8' encoding='utf-8'?>"),
+        &format!("{begin} a='b'?>"),
+        &format!("{begin}  ? >"),
+        &format!("{begin}  >"),
+        "<?XML version='1.0'?>",
+        "<?xMl?>",
+    ];
+    for text in declarations {
+        assert!(result(&format!("{text}<r/>")).is_err(), "{text}");
+    }
+    for text in [
+        "<?a=\"b\"?>",
+        "<?a?b?>",
+        "<??>",
+        "<? a?>",
+        "<?1?>",
+        "<?a\u{a0}b?>",
+        "<?xml\tversion='1.0'?>",
+        "<?xml?>",
+        "<?Xml a?>",
+        "<?a",
+    ] {
+        for place in [format!("<!---->{text}<r/>"), format!("<r>{text}</r>"), format!("<r/>{text}")]
+        {
+            assert!(result(&place).is_err(), "{place}");
+        }
     }
 }
 

@@ -1,9 +1,22 @@
-//! Characters and names of XML, and the grammar of a document type declaration (XML 1.0, productions 28, 45 to 60 and 75 to 83),
-//! which the parser skips. Entities are refused elsewhere, so no reference to one can be right here.
+//! Characters and names of XML, and the grammar of what the parser skips: the XML declaration, the heads of processing
+//! instructions, and document types (XML 1.0, productions 16, 17, 23 to 28, 45 to 60, 75 to 83). Entities are refused
+//! elsewhere, so no reference to one can be right here.
 
 /// Whether a name has at most one `:`, between two parts.
 pub fn is_qualified(name: &str) -> bool {
     !name.starts_with(':') && !name.ends_with(':') && name.matches(':').count() <= 1
+}
+
+/// Whether a text, from its `<?xml` on, begins with an XML declaration. What version and encoding are is not asked.
+pub fn has_declaration(text: &str) -> bool {
+    let mut reader = Reader { rest: text, is_inside: false };
+    reader.declaration().is_some()
+}
+
+/// Whether a text, from its `<?` on, begins with a processing instruction.
+pub fn has_instruction(text: &str) -> bool {
+    let mut reader = Reader { rest: text, is_inside: false };
+    reader.expect("<?").and_then(|()| reader.instruction()).is_some()
 }
 
 /// Whether `&#…;` with this between its marks is a reference to a character of XML.
@@ -21,13 +34,14 @@ pub fn is_character(c: char) -> bool {
     matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }
 
+const SPACE: [char; 4] = [' ', '\t', '\r', '\n'];
 const HEAD: &str = "the document type (`<!DOCTYPE`) is not well-formed; remove it";
 const INSIDE: &str =
     "a declaration within `<!DOCTYPE ...>` cannot be read; remove the document type";
 
 /// The fault of a document type declaration, and its offset in the text, which begins with `<!DOCTYPE`.
 pub fn fault(text: &str) -> Option<(usize, &'static str)> {
-    let mut reader = DoctypeReader { rest: &text["<!DOCTYPE".len()..], is_inside: false };
+    let mut reader = Reader { rest: &text["<!DOCTYPE".len()..], is_inside: false };
     let is_read = reader.document_type().is_some();
     let end = text.len() - reader.rest.len();
     let odd = text[..end].find(|c: char| !is_character(c));
@@ -36,16 +50,43 @@ pub fn fault(text: &str) -> Option<(usize, &'static str)> {
 }
 
 /// Reads from the start of what is left; `None` is a fault there.
-struct DoctypeReader<'t> {
+struct Reader<'t> {
     rest: &'t str,
     /// Whether it is between `[` and `]`.
     is_inside: bool,
 }
 
-impl<'t> DoctypeReader<'t> {
+impl<'t> Reader<'t> {
+    fn declaration(&mut self) -> Option<()> {
+        self.expect("<?xml")?;
+        self.stated("version")?;
+        if self.comes("encoding") {
+            self.stated("encoding")?;
+        }
+        if self.comes("standalone") {
+            matches!(self.stated("standalone")?, "yes" | "no").then_some(())?;
+        }
+        self.skip_space();
+        self.expect("?>")
+    }
+
+    /// White space, a name, and what it is said to be.
+    fn stated(&mut self, name: &str) -> Option<&'t str> {
+        self.space()?;
+        self.expect(name)?;
+        self.skip_space();
+        self.expect("=")?;
+        self.skip_space();
+        self.quoted().filter(|value| !value.contains("?>"))
+    }
+
+    fn comes(&self, word: &str) -> bool {
+        self.rest.trim_start_matches(SPACE).starts_with(word)
+    }
+
     fn document_type(&mut self) -> Option<()> {
         self.space()?;
-        self.name().filter(|name| is_qualified(name))?;
+        self.qualified()?;
         if self.skip_space() && !self.rest.starts_with(['[', '>']) {
             self.external(true)?;
             self.skip_space();
@@ -98,7 +139,7 @@ impl<'t> DoctypeReader<'t> {
 
     fn element(&mut self) -> Option<()> {
         self.space()?;
-        self.name().filter(|name| is_qualified(name))?;
+        self.qualified()?;
         self.space()?;
         if !self.take("EMPTY") && !self.take("ANY") {
             self.expect("(")?;
@@ -119,7 +160,7 @@ impl<'t> DoctypeReader<'t> {
             }
             self.expect("|")?;
             self.skip_space();
-            self.name().filter(|name| is_qualified(name))?;
+            self.qualified()?;
             is_repeated = true;
         }
     }
@@ -133,7 +174,7 @@ impl<'t> DoctypeReader<'t> {
                 open.push(None);
                 continue;
             }
-            self.name().filter(|name| is_qualified(name))?;
+            self.qualified()?;
             loop {
                 // How often the part before may stand.
                 let _ = self.take("?") || self.take("*") || self.take("+");
@@ -158,14 +199,14 @@ impl<'t> DoctypeReader<'t> {
 
     fn attributes(&mut self) -> Option<()> {
         self.space()?;
-        self.name().filter(|name| is_qualified(name))?;
+        self.qualified()?;
         loop {
             let spaced = self.skip_space();
             if self.take(">") {
                 return Some(());
             }
             spaced.then_some(())?;
-            self.name().filter(|name| is_qualified(name))?;
+            self.qualified()?;
             self.space()?;
             self.attribute_type()?;
             self.space()?;
@@ -241,6 +282,12 @@ impl<'t> DoctypeReader<'t> {
         Some(before)
     }
 
+    fn qualified(&mut self) -> Option<&'t str> {
+        let name = self.name().filter(|name| is_qualified(name))?;
+        let (_, local) = name.split_once(':').unwrap_or_default();
+        (local.is_empty() || local.starts_with(begins_name)).then_some(name)
+    }
+
     fn name(&mut self) -> Option<&'t str> {
         self.rest.starts_with(begins_name).then_some(())?;
         self.token()
@@ -258,7 +305,7 @@ impl<'t> DoctypeReader<'t> {
     }
 
     fn skip_space(&mut self) -> bool {
-        let rest = self.rest.trim_start_matches([' ', '\t', '\r', '\n']);
+        let rest = self.rest.trim_start_matches(SPACE);
         let is_found = rest.len() < self.rest.len();
         self.rest = rest;
         is_found
