@@ -181,7 +181,7 @@ fn urdf(draw: &mut Draw) {
     let (robot, link, joint) = (draw.name("r"), draw.name("l"), draw.name("j"));
     let (material, tag, value) = (draw.name("m"), draw.name("tag"), draw.name("v"));
     let (mut in_robot, mut in_link, mut in_joint) = (String::new(), String::new(), String::new());
-    let all: Vec<usize> = (0..25).collect();
+    let all: Vec<usize> = (0..28).collect();
     for what in draw.some(&all) {
         let shape = draw.one_of(&SHAPES);
         let kind = draw.one_of(&["visual", "collision"]);
@@ -314,7 +314,7 @@ fn urdf(draw: &mut Draw) {
                 draw.file("CMakeLists.txt", rules);
                 in_link += &draw.of_package(kind);
             }
-            22 => {
+            25 => {
                 let names = draw.many("data files", |_| "'a',".to_owned());
                 let (lines, folder) =
                     (draw.many("variables", |number| format!("v{number} = 'x'\n")), draw.name("d"));
@@ -324,7 +324,7 @@ fn urdf(draw: &mut Draw) {
                 );
                 in_link += &draw.of_package(kind);
             }
-            23 => {
+            26 => {
                 let files = draw.many("files of the folder", |number| format!("{number} "));
                 for number in files.split_whitespace().take(2_000) {
                     draw.file(&format!("Meshes/A{number}.stl"), "x");

@@ -22,7 +22,7 @@ pub fn programs(bytes: &[u8]) {
     };
     let file = File::new(counted, &meshes);
     for program in Program::ALL {
-        for effect in program.read(&file).0 {
+        for effect in program.read(&file).into_kept() {
             assert!(effect.at <= bytes.len(), "{}: {effect:?}", program.id());
             assert!(!effect.fault.to_string().is_empty(), "{}: {effect:?}", program.id());
         }
