@@ -261,8 +261,12 @@ fn urdf(draw: &mut Draw) {
                 let depth = draw.size >> (6 + draw.dice.below(5));
                 draw.said.push(format!("a chain of {depth}"));
                 for number in 0..depth {
-                    let above = number.checked_sub(1).map_or("base".to_owned(), |above| format!("n{above}"));
-                    in_robot += &format!("<link name=\"n{number}\"/><joint name=\"{joint}{number}\" type=\"revolute\"><parent link=\"{above}\"/><child link=\"n{number}\"/>{LIMIT}</joint>");
+                    let above = number
+                        .checked_sub(1)
+                        .map_or("base".to_owned(), |above| format!("n{above}"));
+                    in_robot += &format!(
+                        "<link name=\"n{number}\"/><joint name=\"{joint}{number}\" type=\"revolute\"><parent link=\"{above}\"/><child link=\"n{number}\"/>{LIMIT}</joint>"
+                    );
                 }
                 let last = depth.saturating_sub(1);
                 in_robot += &draw.many("couplings", |number| {
@@ -273,7 +277,13 @@ fn urdf(draw: &mut Draw) {
                 let kinds = draw.many("retypings", |_| "j, ".to_owned());
                 let count = kinds.matches('j').count();
                 let kinds = [kinds, "UJOINT_ZY, ".repeat(count)];
-                draw.file("r.yaml", format!("closed_loop: []\ntype: []\njoint_name: [{}]\njoint_type: [{}]\n", kinds[0], kinds[1]));
+                draw.file(
+                    "r.yaml",
+                    format!(
+                        "closed_loop: []\ntype: []\njoint_name: [{}]\njoint_type: [{}]\n",
+                        kinds[0], kinds[1]
+                    ),
+                );
             }
             16 => {
                 in_robot += &draw.many("mimics", |number| {
@@ -510,26 +520,32 @@ fn usd(draw: &mut Draw) {
             }
             6 => {
                 let numbers = draw.many("numbers", |_| "1, ".to_owned());
-                inside += &format!("rel mjc:target = </bot/j>\ndouble[] mjc:gainPrm = [{numbers}]\n");
+                inside +=
+                    &format!("rel mjc:target = </bot/j>\ndouble[] mjc:gainPrm = [{numbers}]\n");
                 kind = "MjcActuator";
             }
             7 => inside += &draw.many("attributes", |number| format!("int {attribute}{number}\n")),
-            8 => inside += &draw.many("children", |number| format!("def Cube \"k{number}\" {{}}\n")),
+            8 => {
+                inside += &draw.many("children", |number| format!("def Cube \"k{number}\" {{}}\n"))
+            }
             9 => {
                 let sets = draw.many("variant sets", |number| {
                     format!("variantSet \"v{number}\" = {{\n\"a\" {{}}\n}}\n")
                 });
                 let count = sets.matches("variantSet").count().min(900);
-                let names: Vec<String> = (0..count).map(|number| format!("\"v{number}\"")).collect();
+                let names: Vec<String> =
+                    (0..count).map(|number| format!("\"v{number}\"")).collect();
                 let chosen: String =
                     (0..count).map(|number| format!("string v{number} = \"a\"\n")).collect();
-                metadata += &format!("variantSets = [{}]\nvariants = {{\n{chosen}}}\n", names.join(", "));
+                metadata +=
+                    &format!("variantSets = [{}]\nvariants = {{\n{chosen}}}\n", names.join(", "));
                 inside += &sets;
             }
             10 => {
                 let count = draw.dice.below(900);
                 draw.said.push(format!("one sublayer {count} times"));
-                let layer = draw.many("prims of a layer", |number| format!("def Xform \"l{number}\" {{}}\n"));
+                let layer = draw
+                    .many("prims of a layer", |number| format!("def Xform \"l{number}\" {{}}\n"));
                 draw.file("b.usda", format!("#usda 1.0\n{layer}"));
                 top += &format!("subLayers = [{}]\n", "@b.usda@, ".repeat(count));
             }
@@ -552,7 +568,9 @@ fn usd(draw: &mut Draw) {
             }
             14 => {
                 let words = draw.many("letters of a file", |_| "letter".to_owned());
-                inside += &format!("asset file = @{words}@\ntoken mjc:gainType = \"{words}\"\nrel mjc:target = </bot/j>\n");
+                inside += &format!(
+                    "asset file = @{words}@\ntoken mjc:gainType = \"{words}\"\nrel mjc:target = </bot/j>\n"
+                );
             }
             _ => {
                 let count = draw.dice.below(900);

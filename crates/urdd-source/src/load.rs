@@ -359,7 +359,8 @@ fn mend<T>(
                     AccountError::Cancelled(cancelled) => cancelled.into(),
                     AccountError::Overdrawn(error) => {
                         let place = places_of(vec![offset]).pop();
-                        let (line, column) = place.as_ref().map_or((1, 1), |at| (at.line, at.column));
+                        let (line, column) =
+                            place.as_ref().map_or((1, 1), |at| (at.line, at.column));
                         let file = place.map_or_else(|| shown.clone(), |at| at.file);
                         SourceError::Import { file, line, column, fault: error.to_string() }
                     }

@@ -291,9 +291,8 @@ fn closed_chain(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         ["loop", "coupling"].contains(name) && ["predecessor", "successor"].iter().any(has_end)
     };
     let all = children(urdf.root).filter(is_closing);
-    let fault_of = |(_, node): &(&str, Node)| {
-        of_urdf.range(node.range()).next().map(|(_, fault)| fault)
-    };
+    let fault_of =
+        |(_, node): &(&str, Node)| of_urdf.range(node.range()).next().map(|(_, fault)| fault);
     let (faulty, closing): (Vec<_>, Vec<_>) = all.partition(|one| fault_of(one).is_some());
     let checked = chains(urdf, &closing, findings);
     for (one, fault) in faulty.iter().filter_map(|one| Some((one, fault_of(one)?))) {

@@ -177,9 +177,7 @@ pub(super) fn read_extended(path: &Path, text: String) -> Result<Said, SourceErr
         }
     }
     let mut file = File::default();
-    let link = |name: String, number: usize| {
-        Spanned::new(place(KEY, number).unwrap_or(0..0), name)
-    };
+    let link = |name: String, number: usize| Spanned::new(place(KEY, number).unwrap_or(0..0), name);
     for (number, ([a, b], word)) in read.closed_loop.into_iter().zip(&read.types).enumerate() {
         let kind = match word.to_ascii_lowercase().as_str() {
             "6d" => LoopKind::Fixed,

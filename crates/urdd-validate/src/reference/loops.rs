@@ -247,4 +247,3 @@ fn steepest(
     }
     Some(largest)
 }
-

@@ -240,8 +240,10 @@ fn loop_open(context: &Context, findings: &mut Findings) -> Option<()> {
             if sum.is_finite() && sum.abs() <= tolerance {
                 continue;
             }
-            let message =
-                format!("the coupling `{}` (/couplings/{place}) does not hold here", Short::of(&coupling.name));
+            let message = format!(
+                "the coupling `{}` (/couplings/{place}) does not hold here",
+                Short::of(&coupling.name)
+            );
             finding_in(Kind::Loops, pointer.clone(), message)
                 .values("a sum of 0", format!("{sum:?}"))
                 .tolerance(tolerance)
