@@ -29,12 +29,12 @@ use urdd_source::process;
 pub struct LimitArguments {
     /// The longest time for a robot. Where `lint`, `validate`, `generate` or `view --export` has several, they are read one
     /// after the other, and one that takes longer is left out; any other command ends with exit status 2.
-    #[arg(long, global = true, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, global = true, display_order = 900, value_name = "SECONDS", value_parser = seconds)]
     max_time: Option<Duration>,
 
     /// The most memory that the program may have in use. A robot with which it takes more is left out, or ends the run, as for
     /// --max-time.
-    #[arg(long, global = true, value_name = "MB", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    #[arg(long, global = true, display_order = 901, value_name = "MB", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     max_memory: Option<u64>,
 }
 
