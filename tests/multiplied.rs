@@ -167,7 +167,7 @@ fn urdf(draw: &mut Draw) {
     let (robot, link, joint) = (draw.name("r"), draw.name("l"), draw.name("j"));
     let (material, tag, value) = (draw.name("m"), draw.name("tag"), draw.name("v"));
     let (mut in_robot, mut in_link, mut in_joint) = (String::new(), String::new(), String::new());
-    let all: Vec<usize> = (0..22).collect();
+    let all: Vec<usize> = (0..25).collect();
     for what in draw.some(&all) {
         let shape = draw.one_of(&SHAPES);
         let kind = draw.one_of(&["visual", "collision"]);
@@ -242,6 +242,24 @@ fn urdf(draw: &mut Draw) {
                 in_link += &draw.many("names of a mesh", |number| {
                     format!("<{kind}><geometry><mesh filename=\"{}\" scale=\"1 1 {}\"/></geometry></{kind}>", spelled("m.stl", number), number + 1)
                 });
+            }
+            22 | 23 => {
+                let depth = draw.size >> (6 + draw.dice.below(5));
+                draw.said.push(format!("a chain of {depth}"));
+                for number in 0..depth {
+                    let above = number.checked_sub(1).map_or("base".to_owned(), |above| format!("n{above}"));
+                    in_robot += &format!("<link name=\"n{number}\"/><joint name=\"{joint}{number}\" type=\"revolute\"><parent link=\"{above}\"/><child link=\"n{number}\"/>{LIMIT}</joint>");
+                }
+                let last = depth.saturating_sub(1);
+                in_robot += &draw.many("couplings", |number| {
+                    format!("<coupling name=\"c{number}\"><predecessor link=\"base\"/><successor link=\"n{last}\"/><ratio value=\"1\"/></coupling>")
+                });
+            }
+            24 => {
+                let kinds = draw.many("retypings", |_| "j, ".to_owned());
+                let count = kinds.matches('j').count();
+                let kinds = [kinds, "UJOINT_ZY, ".repeat(count)];
+                draw.file("r.yaml", format!("closed_loop: []\ntype: []\njoint_name: [{}]\njoint_type: [{}]\n", kinds[0], kinds[1]));
             }
             16 => {
                 in_robot += &draw.many("mimics", |number| {

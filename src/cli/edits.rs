@@ -7,7 +7,7 @@ use clap::Subcommand;
 use super::arguments::around;
 use super::inputs::{self, Edited, SrdfArguments, edited, left_out, some_read, text, with_srdf};
 use super::output::{self, Failure, about, one_line, shown};
-use urdd_directory::cancellation::Cancellation;
+use urdd_directory::account::Account;
 use urdd_directory::limits::MAX_SPHERES_BYTES;
 use urdd_export::{
     ImportedSkips, Sphere, SphereList, import_spheres, import_srdf, import_states, read_spheres,
@@ -18,6 +18,7 @@ use urdd_format::nearest::nearest;
 use urdd_format::readable::{counted, first_of};
 use urdd_format::registry::ModuleKind;
 use urdd_format::self_collision_model::LinkPair;
+use urdd_format::short::Short;
 use urdd_format::urdf::Geometry;
 use urdd_robot::Robot;
 use urdd_source::{RobotFile, Settings};
@@ -114,9 +115,10 @@ pub fn spheres(command: &SpheresCommand) -> Result<u8, Failure> {
     let SpheresCommand::Import { list, urdd } = command;
     output::stoppable(None, |signals| {
         let cancellation = signals.cancellation();
-        let spheres = spheres_of(list, &cancellation)?;
+        let account = Account::new(&cancellation);
+        let spheres = spheres_of(list, &account)?;
         let told = edited(urdd, ModuleKind::LinkShapesSpheres, |robot| {
-            let imported = import_spheres(robot, &spheres, &cancellation).map_err(about(list))?;
+            let imported = import_spheres(robot, &spheres, &account).map_err(about(list))?;
             let last = imported.module.levels.last();
             let mut told =
                 format!("{}: {} imported\n", shown(urdd), counted(imported.taken, "sphere"));
@@ -154,16 +156,19 @@ fn always(pairs: &[LinkPair], links: &[String]) -> String {
     )
 }
 
-fn spheres_of(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Failure> {
+fn spheres_of(file: &Path, account: &Account) -> Result<SphereList, Failure> {
     if matches!(RobotFile::at(file), Some(RobotFile::Urdf | RobotFile::Xacro)) {
-        return of_urdf(file, cancellation);
+        return of_urdf(file, account);
     }
-    Ok(read_spheres(&text(file, MAX_SPHERES_BYTES)?).map_err(about(file))?)
+    let text = text(file, MAX_SPHERES_BYTES)?;
+    account.deposit(text.len());
+    Ok(read_spheres(&text, account).map_err(about(file))?)
 }
 
-fn of_urdf(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Failure> {
-    let settings = Settings { cancellation: cancellation.clone(), ..around() };
+fn of_urdf(file: &Path, account: &Account) -> Result<SphereList, Failure> {
+    let settings = Settings { cancellation: account.cancellation().clone(), ..around() };
     let source = urdd_source::load(file, &settings).map_err(one_line)?;
+    account.deposit(source.carried.len());
     let mut list = SphereList::default();
     for link in &source.reading.robot.links {
         let mut spheres = Vec::new();
@@ -175,7 +180,7 @@ fn of_urdf(file: &Path, cancellation: &Cancellation) -> Result<SphereList, Failu
                 }),
                 _ => list.left_out.push(format!(
                     "link `{}` has a collision element that is no sphere",
-                    link.name.escape_debug()
+                    Short::of(&link.name).escape_debug()
                 )),
             }
         }

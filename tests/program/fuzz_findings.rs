@@ -28,5 +28,5 @@ macro_rules! targets {
 }
 
 targets! {
-    archive archive_names json yaml urdf mjcf sdf usd programs stl obj gltf glb dae settings urdd
+    archive archive_names json yaml urdf mjcf sdf usd loops spheres programs stl obj gltf glb dae settings urdd
 }

@@ -109,7 +109,7 @@ fn of_file(file: &File, side: &Side) -> Parts {
         .collect();
     parts.extend(file.couplings.iter().map(|one| {
         let one = one.get_ref();
-        let terms = one.terms.iter().map(|(name, terms)| (name.get_ref().clone(), &terms[..]));
+        let terms = one.terms.iter().map(|(name, terms)| (name.get_ref().to_string(), &terms[..]));
         (format!("coupling {}", one.name), coupling(one.constant, terms.collect()))
     }));
     let independent = file.independent.iter();

@@ -1,7 +1,8 @@
 //! Names: those that formats can represent, those that an export invents, and those of files. None that is invented is one of
 //! the robot's, nor another invented one; above all those of the simple joints that a joint of several DOFs is a chain of.
 
-use std::collections::HashSet;
+use std::collections::hash_map::Entry;
+use std::collections::{HashMap, HashSet};
 
 use nalgebra::Vector3;
 
@@ -166,29 +167,46 @@ impl FileNames {
     }
 }
 
-/// The names of one space of names.
+/// The number that is tried first for a name that is taken.
+const FIRST: usize = 2;
+
+/// The names of one space of names, each with the number that is tried next for it.
 #[derive(Debug, Clone, Default)]
-pub struct Taken(HashSet<String>);
+pub struct Taken(HashMap<String, usize>);
 
 impl Taken {
     pub fn new<'n>(names: impl IntoIterator<Item = &'n String>) -> Self {
-        Taken(names.into_iter().cloned().collect())
+        Taken(names.into_iter().map(|name| (name.clone(), FIRST)).collect())
     }
 
     /// Whether nothing had this name, which is taken from now on.
     pub fn insert(&mut self, name: &str) -> bool {
-        self.0.insert(name.to_owned())
+        match self.0.entry(name.to_owned()) {
+            Entry::Vacant(free) => _ = free.insert(FIRST),
+            Entry::Occupied(_) => return false,
+        }
+        true
     }
 
     /// A name that nothing has yet, and that is taken from now on: the wanted one, or with a number after it.
     pub fn free(&mut self, wanted: String) -> String {
-        let mut name = wanted.clone();
-        let mut number = 2;
-        while !self.0.insert(name.clone()) {
+        let mut name = wanted;
+        if let Some(next) = self.0.get(&name) {
+            let (wanted, mut number) = (name, *next);
             name = format!("{wanted}_{number}");
-            number += 1;
+            while self.0.contains_key(&name) {
+                number += 1;
+                name = format!("{wanted}_{number}");
+            }
+            self.0.insert(wanted, number + 1);
         }
+        self.0.insert(name.clone(), FIRST);
         name
+    }
+
+    /// A name that nothing has yet, as [`Taken::free`]; it stays free.
+    pub fn untaken(&self, wanted: String) -> String {
+        if self.0.contains_key(&wanted) { self.clone().free(wanted) } else { wanted }
     }
 }
 
@@ -250,9 +268,9 @@ impl JointNames {
             // Gazebo's own converter.
             Format::Sdf => {
                 let mut links = Taken::new(links());
-                links.0.insert("world".to_owned());
-                let mut taken = Taken::new(links.0.iter().chain(own()));
-                for name in joints.iter_mut().filter(|name| links.0.contains(*name)) {
+                links.insert("world");
+                let mut taken = Taken::new(links.0.keys().chain(own()));
+                for name in joints.iter_mut().filter(|name| links.0.contains_key(*name)) {
                     *name = taken.free(format!("{name}_joint"));
                 }
                 taken

@@ -6,7 +6,7 @@
 //! V. Batto et al., Extended URDF (2024), and the loader of example-parallel-robots, which is of Pinocchio: a joint of the URDF
 //! that the YAML makes a ball is a hinge without it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use nalgebra::{Isometry3, Translation3};
 
@@ -113,11 +113,12 @@ fn sides(
     let down_to = |link: usize| subject.between(tree.root, link);
     let child = |joint: usize| tree.joint_links[joint].1;
     let deepest = |joints: &mut dyn Iterator<Item = usize>| {
-        joints.max_by_key(|joint| (down_to(child(*joint)).len(), std::cmp::Reverse(*joint)))
+        joints.max_by_key(|joint| (tree.depth[child(*joint)], std::cmp::Reverse(*joint)))
     };
     let one = deepest(&mut terms.keys().copied())?;
     let chain = down_to(child(one));
-    let other = deepest(&mut terms.keys().copied().filter(|joint| !chain.contains(joint)));
+    let of_chain: HashSet<usize> = chain.iter().copied().collect();
+    let other = deepest(&mut terms.keys().copied().filter(|joint| !of_chain.contains(joint)));
     let ends = match other {
         Some(other) if other < one => [child(other), child(one)],
         Some(other) => [child(one), child(other)],
@@ -127,11 +128,9 @@ fn sides(
         }
     };
     // A mimic joint on the way would add a term of another joint.
-    let [mut to_a, mut to_b] = ends.map(down_to);
-    while to_a.first().is_some_and(|first| to_b.first() == Some(first)) {
-        to_a.remove(0);
-        to_b.remove(0);
-    }
+    let [to_a, to_b] = ends.map(down_to);
+    let common = to_a.iter().zip(&to_b).take_while(|(a, b)| a == b).count();
+    let [to_a, to_b] = [&to_a[common..], &to_b[common..]];
     let factor_of = |joints: &[usize]| -> Option<Option<f64>> {
         let mut factor = None;
         for joint in joints.iter().filter(|joint| subject.view.joints[**joint].num_dofs() > 0) {
@@ -140,8 +139,9 @@ fn sides(
         }
         Some(factor)
     };
-    let (a, b) = (factor_of(&to_a)?, factor_of(&to_b)?);
-    let is_whole = terms.keys().all(|joint| to_a.contains(joint) || to_b.contains(joint));
+    let (a, b) = (factor_of(to_a)?, factor_of(to_b)?);
+    let between: HashSet<&usize> = to_a.iter().chain(to_b).collect();
+    let is_whole = terms.keys().all(|joint| between.contains(joint));
     let ratio = a.map_or(1.0, |a| -a / b.unwrap_or(1.0));
     let is_usable = ratio.is_finite() && coupling.constant == 0.0 && b.is_some() && is_whole;
     is_usable.then_some((ends, ratio))

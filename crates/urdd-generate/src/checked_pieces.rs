@@ -7,19 +7,22 @@ use nalgebra::Isometry3;
 use sha2::{Digest, Sha256 as Hash};
 
 use crate::context::Context;
-use crate::error::Result;
+use crate::error::{Result, first_names};
 use crate::made::{Digests, Made, made};
 use crate::meshes::WrittenMesh;
+use urdd_directory::account::Account;
 use urdd_directory::writer::sha256;
 use urdd_format::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule;
 use urdd_format::link_shapes_skips::LinkShapesSkipsModule;
 use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::Sha256;
+use urdd_format::short::Short;
 use urdd_geometry::Mesh;
 use urdd_geometry::convex::{BodyPairs, ShapeError};
 use urdd_kinematics::ConfigurationError;
 use urdd_learned::train::{MAX_PAIRS, NoModel, Subject, train};
 use urdd_source::note::NoteKind;
+use urdd_spheres::model::SphereList;
 use urdd_spheres::module::{self, Given, NoSpheres};
 use urdd_spheres::samples::{Moves, Pairs};
 
@@ -203,9 +206,16 @@ pub(super) fn spheres(
         let problem = format!("{} given spheres are of the link `{name}`, {what}", spheres.len());
         notes.push(context.note(NoteKind::LeftOut, problem, "these spheres are left out"));
     }
-    match module::module(&subject, &context.settings.source.cancellation, &progress) {
+    let account = Account::new(&context.settings.source.cancellation);
+    account.deposit(context.spheres.iter().map(SphereList::count).sum::<usize>() * GIVEN);
+    match module::module(&subject, &account, &progress) {
         Ok(module) => Ok(Made { notes, ..made(&module)? }),
         Err(NoSpheres::Cancelled(cancelled)) => Err(cancelled.into()),
+        Err(NoSpheres::Costly(links, error)) => {
+            let links = links.iter().map(|link| Short::of(names[*link]));
+            let reason = format!("the given spheres of {}: {error}", first_names(links));
+            Err(context.unmeasurable(reason))
+        }
         Err(NoSpheres::Robot(error)) => Err(context.unmeasurable(error)),
         Err(NoSpheres::Piece(link, error)) => Err(context.unmeasurable(format!(
             "distances cannot be computed for link `{}`: {error}",
@@ -213,6 +223,9 @@ pub(super) fn spheres(
         ))),
     }
 }
+
+/// What a given sphere adds to the account, bytes: about what the old module said of it.
+const GIVEN: usize = 100;
 
 /// The robot, as the modules that are made move it.
 struct Moving<'a>(&'a Context<'a>);

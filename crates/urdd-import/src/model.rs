@@ -346,7 +346,8 @@ costs! {
     JointValue: |value| PART + letters([&value.name]);
     Closing: |closing| ENTRY + letters(&closing.name);
     Coupled: |coupled| {
-        ENTRY + letters(coupled.name.iter().chain(coupled.terms.iter().map(|(name, _)| name)))
+        let terms = coupled.terms.iter().map(|(name, _)| name);
+        ENTRY + PART * coupled.terms.len() + letters(coupled.name.iter().chain(terms))
     };
     GazeboElement: |element| ENTRY + letters([&element.0]);
 }

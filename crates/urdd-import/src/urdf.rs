@@ -320,12 +320,16 @@ pub fn srdf(
 pub fn loops(model: &Model, account: &Account) -> Result<Option<String>, AccountError> {
     let mut file = loops_toml::File::default();
     let mut names = HashSet::new();
+    // Of a name that is taken, the number that is tried next.
+    let mut next: HashMap<String, usize> = HashMap::new();
     let mut named = |name: &Option<String>, kind: &str, place: usize| {
         let base = name.clone().unwrap_or_else(|| format!("{kind}{}", place + 1));
-        let further = (2..).map(|number| format!("{base}_{number}"));
-        let free = std::iter::once(base.clone()).chain(further).find(|name| !names.contains(name));
-        let free = free.unwrap_or(base);
-        names.insert(free.clone());
+        let mut free = base.clone();
+        while !names.insert(free.clone()) {
+            let number = next.entry(base.clone()).or_insert(1);
+            *number += 1;
+            free = format!("{base}_{number}");
+        }
         free
     };
     for (place, closing) in model.closings.walk(account)?.enumerate() {
@@ -342,7 +346,7 @@ pub fn loops(model: &Model, account: &Account) -> Result<Option<String>, Account
     for (place, coupled) in model.couplings.walk(account)?.enumerate() {
         let mut terms = BTreeMap::new();
         for (joint, coefficients) in &coupled.terms {
-            terms.insert(unplaced(joint.clone()), coefficients.clone());
+            terms.insert(unplaced(joint.as_str().into()), coefficients.as_slice().into());
         }
         let name = named(&coupled.name, "coupling_", place);
         file.couplings.push(unplaced(CouplingTable { name, constant: coupled.constant, terms }));

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use urdd_directory::account::{Account, AccountError};
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::path;
 use urdd_format::urdf::UrdfModule;
@@ -13,7 +14,7 @@ use crate::decode::{Decoded, Decoding, Original, Repaired, decode, mend_xml};
 use crate::error::SourceError;
 use crate::fault::{Fault, PlacedFault};
 use crate::files::{Files, MAX_SOURCE_BYTES};
-use crate::loops::{self, Said};
+use crate::loops::{self, CostlyElement, Said};
 use crate::note::{Note, Remark, SourcePlace};
 use crate::settings::Settings;
 use crate::suggested::deciding;
@@ -94,7 +95,9 @@ fn with_loops<T>(
         read.is_verbatim &= text == read.text;
         read.text = text;
     }
-    let (mut source, also) = mend(&Xml::new(&read.text), &read, notes, also)?;
+    let account = Account::new(&settings.cancellation);
+    account.deposit(read.bytes.len());
+    let (mut source, also) = mend(&Xml::new(&read.text), (&read, &account), notes, also)?;
     let Some(said) = said else { return Ok((source, also)) };
     source.notes.extend(said.notes.iter().cloned());
     // A file that is named in the settings is chosen by a person.
@@ -260,9 +263,11 @@ fn in_memory(
 ) -> Result<Source, SourceError> {
     let mut notes = Vec::new();
     let read = held(bytes, shown, folder, stem, &mut notes)?;
+    let account = Account::default();
+    account.deposit(read.bytes.len());
     let loaded = match known.filter(|known| known.text() == read.text) {
-        Some(xml) => mend(xml, &read, notes, |_, _| ()),
-        None => mend(&Xml::new(&read.text), &read, notes, |_, _| ()),
+        Some(xml) => mend(xml, (&read, &account), notes, |_, _| ()),
+        None => mend(&Xml::new(&read.text), (&read, &account), notes, |_, _| ()),
     };
     Ok(loaded?.0)
 }
@@ -304,7 +309,7 @@ pub fn read_urdf(bytes: &[u8], name: &str) -> Result<SourceRobot, SourceError> {
 /// Reads a robot, and repairs its text until both match.
 fn mend<T>(
     found: &Xml<'_>,
-    read: &Read,
+    (read, account): (&Read, &Account),
     mut notes: Vec<Note>,
     also: impl FnOnce(&Xml<'_>, bool) -> T,
 ) -> Result<(Source, T), SourceError> {
@@ -346,10 +351,22 @@ fn mend<T>(
                 vec![unknown; offsets.len()]
             }
         };
-        let plus = xml.document().ok();
-        let plus = plus.and_then(|document| {
-            loops::placed_urdf_plus(document.root_element(), places_of, &mut notes)
-        });
+        let plus = match xml.document() {
+            Ok(document) => {
+                let robot = document.root_element();
+                let plus = loops::placed_urdf_plus(robot, &places_of, &mut notes, account);
+                plus.map_err(|CostlyElement { offset, error }| match error {
+                    AccountError::Cancelled(cancelled) => cancelled.into(),
+                    AccountError::Overdrawn(error) => {
+                        let place = places_of(vec![offset]).pop();
+                        let (line, column) = place.as_ref().map_or((1, 1), |at| (at.line, at.column));
+                        let file = place.map_or_else(|| shown.clone(), |at| at.file);
+                        SourceError::Import { file, line, column, fault: error.to_string() }
+                    }
+                })?
+            }
+            Err(_) => None,
+        };
         let also = also(xml, is_verbatim);
         let source = Source {
             folder: read.folder.clone(),

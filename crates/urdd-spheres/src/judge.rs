@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::model::{Placeable, Placed, Spheres};
 use super::samples::Sample;
+use urdd_directory::account::{Account, AccountError};
 use urdd_format::rate::interval;
 
 /// Allowed rates of missed collisions, and of false contacts in free configurations.
@@ -80,15 +81,77 @@ pub fn gaps(
     samples.par_iter().map_init(Placed::default, gap).collect()
 }
 
+/// Pairs of spheres of two links that are looked at for nothing in a sample: some microseconds, as the pieces of two links
+/// take. Of lists that people have, fewer are.
+const FREE: usize = 2048;
+
+/// Two links whose spheres take more work than the account has.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CostlyPair {
+    pub links: [usize; 2],
+    pub error: AccountError,
+}
+
 /// Of each sample, the indices of the pairs in contact by spheres, ascending.
-pub fn touching(spheres: &Spheres, pairs: &[[usize; 2]], samples: &[Sample]) -> Vec<Vec<u32>> {
+///
+/// # Errors
+/// If spheres of two links are so many, and so near each other, that the account does not have what it takes.
+pub fn touching(
+    spheres: &Spheres,
+    pairs: &[[usize; 2]],
+    samples: &[Sample],
+    account: &Account,
+) -> Result<Vec<Vec<u32>>, CostlyPair> {
     let model = Placeable::new(spheres);
     let touching = |placed: &mut Placed, sample: &Sample| {
         model.place(sample, placed);
-        let pairs = (0u32..).zip(pairs);
-        pairs.filter(|(_, pair)| model.touches(sample, placed, **pair)).map(|(k, _)| k).collect()
+        let mut touching = Vec::new();
+        for (number, links) in (0u32..).zip(pairs) {
+            let touches = charged(&model, (sample, placed), *links, account)?;
+            touching.extend(touches.then_some(number));
+        }
+        Ok(touching)
     };
     samples.par_iter().map_init(Placed::default, touching).collect()
+}
+
+/// Of each sample, whether a pair that is not ignored is in contact by spheres.
+///
+/// # Errors
+/// Those of [`touching`].
+pub fn any_touching(
+    spheres: &Spheres,
+    pairs: &[[usize; 2]],
+    ignored: &[bool],
+    samples: &[Sample],
+    account: &Account,
+) -> Result<Vec<bool>, CostlyPair> {
+    let model = Placeable::new(spheres);
+    let checked = checked(pairs, ignored);
+    let touches = |placed: &mut Placed, sample: &Sample| {
+        model.place(sample, placed);
+        for (_, links) in &checked {
+            if charged(&model, (sample, placed), *links, account)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    };
+    samples.par_iter().map_init(Placed::default, touches).collect()
+}
+
+/// Whether spheres of two links touch.
+fn charged(
+    model: &Placeable,
+    (sample, placed): (&Sample, &Placed),
+    links: [usize; 2],
+    account: &Account,
+) -> Result<bool, CostlyPair> {
+    let (touches, steps) = model.touches(sample, placed, links);
+    if let Some(steps) = steps.checked_sub(FREE) {
+        account.charge(steps).map_err(|error| CostlyPair { links, error })?;
+    }
+    Ok(touches)
 }
 
 fn checked(pairs: &[[usize; 2]], ignored: &[bool]) -> Vec<(usize, [usize; 2])> {
@@ -118,7 +181,7 @@ pub fn faults(
         model.place(sample, &mut placed);
         let touching: Vec<usize> = checked(pairs, ignored)
             .into_iter()
-            .filter(|(_, pair)| model.touches(sample, &mut placed, *pair))
+            .filter(|(_, pair)| model.touches(sample, &placed, *pair).0)
             .map(|(number, _)| number)
             .collect();
         match (sample.collides(), touching.is_empty()) {

@@ -19,3 +19,5 @@ pub mod module;
 pub mod samples;
 #[doc(hidden)]
 pub mod surface;
+#[doc(hidden)]
+pub mod tree;

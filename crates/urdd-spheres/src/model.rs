@@ -1,15 +1,14 @@
 //! Spheres of links, those that a person gave, and their placement in sampled configurations.
 
-use crate::frame::{Point, Pose, add, dot, norm, scaled, sub};
+use std::collections::HashMap;
+use std::sync::OnceLock;
+
+use crate::frame::{Point, Pose, dot, norm, sub};
 use crate::samples::Sample;
+use crate::tree::{SphereTree, around};
 
+pub use crate::tree::distance;
 pub use urdd_geometry::bounding_sphere::BoundingSphere as Sphere;
-
-/// Signed distance of a point to a sphere in its link's frame; negative inside.
-#[inline]
-pub fn distance(sphere: &Sphere, p: Point) -> f64 {
-    norm(sub(p, sphere.centre)) - sphere.radius
-}
 
 /// The spheres of each link that has shapes.
 pub type Spheres = Vec<Vec<Sphere>>;
@@ -18,25 +17,11 @@ pub fn count(spheres: &Spheres) -> usize {
     spheres.iter().map(Vec::len).sum()
 }
 
-/// A bounding sphere of all spheres of a link; `None` if it has none.
-fn about(own: &[Sphere]) -> Option<Sphere> {
-    let mut low = own.first()?.centre;
-    let mut high = low;
-    for sphere in own {
-        for k in 0..3 {
-            low[k] = low[k].min(sphere.centre[k] - sphere.radius);
-            high[k] = high[k].max(sphere.centre[k] + sphere.radius);
-        }
-    }
-    let centre = scaled(add(low, high), 0.5);
-    let reach = |sphere: &Sphere| norm(sub(sphere.centre, centre)) + sphere.radius;
-    Some(Sphere { centre, radius: own.iter().map(reach).fold(0.0, f64::max) })
-}
-
 /// Spheres, with bounding spheres for fast rejection of distant pairs.
 pub struct Placeable<'a> {
     spheres: &'a Spheres,
     about: Vec<Option<Sphere>>,
+    trees: Vec<OnceLock<SphereTree<'a>>>,
 }
 
 /// The spheres placed in one configuration. Reusable for the next configuration.
@@ -48,7 +33,8 @@ pub struct Placed {
 
 impl<'a> Placeable<'a> {
     pub fn new(spheres: &'a Spheres) -> Self {
-        Placeable { spheres, about: spheres.iter().map(|own| about(own)).collect() }
+        let about = spheres.iter().map(|own| around(own.iter())).collect();
+        Placeable { spheres, about, trees: spheres.iter().map(|_| OnceLock::new()).collect() }
     }
 
     /// Places the links' bounding spheres. The spheres themselves are placed on demand.
@@ -70,10 +56,15 @@ impl<'a> Placeable<'a> {
         reach > 0.0 && dot(between, between) <= reach * reach
     }
 
-    /// Whether spheres of two links touch.
-    pub fn touches(&self, sample: &Sample, placed: &mut Placed, links: [usize; 2]) -> bool {
-        self.may_be_near(placed, links, 0.0)
-            && self.gap(sample, placed, links, f64::MIN_POSITIVE) <= 0.0
+    /// Whether spheres of two links touch; and how many pairs of spheres were looked at.
+    pub fn touches(&self, sample: &Sample, placed: &Placed, links: [usize; 2]) -> (bool, usize) {
+        if !self.may_be_near(placed, links, 0.0) {
+            return (false, 0);
+        }
+        let tree =
+            |link: usize| self.trees[link].get_or_init(|| SphereTree::new(&self.spheres[link]));
+        let ([a, b], [p, q]) = (links.map(tree), links.map(|link| &sample.poses[link]));
+        a.touches(p, b, q)
     }
 
     /// The minimum distance of two links' spheres, negative if they overlap; at most `limit`.
@@ -155,9 +146,11 @@ impl SphereList {
     /// For each link of a robot, its spheres. A link that stands twice has those of both.
     pub fn by_link<T: AsRef<str>>(&self, names: &[T]) -> Vec<Vec<Sphere>> {
         let mut found = vec![Vec::new(); names.len()];
+        let places = names.iter().enumerate().rev().map(|(place, name)| (name.as_ref(), place));
+        let places: HashMap<&str, usize> = places.collect();
         for (name, spheres) in &self.links {
-            if let Some(link) = names.iter().position(|link| link.as_ref() == name) {
-                found[link].extend(spheres.iter().copied());
+            if let Some(link) = places.get(name.as_str()) {
+                found[*link].extend(spheres.iter().copied());
             }
         }
         found

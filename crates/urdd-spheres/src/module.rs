@@ -14,7 +14,8 @@ use crate::judge::{SphereRates, touching};
 use crate::model::{Sphere, Spheres};
 use crate::samples::{Ask, Moves, Pairs, Region, Sampler};
 use crate::surface::Pieces;
-use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_directory::account::{Account, AccountError, Overdrawn};
+use urdd_directory::cancellation::Cancelled;
 use urdd_format::index::{Count, LevelIdx, LinkIdx, SphereIdx};
 use urdd_format::link_shapes_spheres::{
     LinkShapesSpheresModule, LinkSphere, SPHERES_FIRST, SphereEvaluation, SphereLevel, SphereOrigin,
@@ -42,8 +43,19 @@ pub enum NoSpheres<E> {
     Robot(E),
     /// A piece of this link cannot be measured.
     Piece(usize, ShapeError),
+    /// The spheres of these links take more work than the account has.
+    Costly(Vec<usize>, Overdrawn),
     /// It was cancelled.
     Cancelled(Cancelled),
+}
+
+impl<E> NoSpheres<E> {
+    fn of_account(links: &[usize], error: AccountError) -> Self {
+        match error {
+            AccountError::Overdrawn(error) => NoSpheres::Costly(links.to_vec(), error),
+            AccountError::Cancelled(cancelled) => NoSpheres::Cancelled(cancelled),
+        }
+    }
 }
 
 impl<E> From<Cancelled> for NoSpheres<E> {
@@ -81,10 +93,10 @@ struct Made {
 /// If the robot has no poses, a piece cannot be measured, or it is cancelled.
 pub fn module<R: Moves>(
     subject: &Subject<R>,
-    cancellation: &Cancellation,
+    account: &Account,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<LinkShapesSpheresModule, NoSpheres<R::Error>> {
-    let pairs = subject.pairs;
+    let (pairs, cancellation) = (subject.pairs, account.cancellation());
     let samples = samples(pairs);
     let steps = 3;
     progress(0, steps);
@@ -101,12 +113,11 @@ pub fn module<R: Moves>(
         .collect::<Result<Vec<Pieces>, _>>()?;
     cancellation.check()?;
     progress(2, steps);
-    let contacts = contacts(subject, &levels, samples).map_err(NoSpheres::Robot)?;
+    let contacts = contacts(subject, &levels, samples, account)?;
     cancellation.check()?;
     let levels = levels.iter().zip(contacts);
-    let levels =
-        levels.map(|(level, found)| written(subject, level, &pieces, &found, cancellation));
-    let levels = levels.collect::<Result<_, Cancelled>>()?;
+    let levels = levels.map(|(level, found)| written(subject, level, &pieces, &found, account));
+    let levels = levels.collect::<Result<_, _>>()?;
     progress(steps, steps);
     Ok(LinkShapesSpheresModule { levels, num_samples: Count::saturating(samples) })
 }
@@ -181,15 +192,26 @@ fn all_pairs(links: usize) -> impl Iterator<Item = [usize; 2]> {
     (0..links).flat_map(move |a| (a + 1..links).map(move |b| [a, b]))
 }
 
+/// Samples between two looks at whether it is cancelled.
+const AT_ONCE: usize = 250;
+
 fn contacts<R: Moves>(
     subject: &Subject<R>,
     levels: &[Made],
     samples: usize,
-) -> Result<Vec<Found>, R::Error> {
+    account: &Account,
+) -> Result<Vec<Found>, NoSpheres<R::Error>> {
     let pairs = subject.pairs;
     let all: Vec<[usize; 2]> = all_pairs(pairs.links.len()).collect();
     let sampler = Sampler { robot: subject.robot, pairs };
-    let known = sampler.samples(Region::Bounds, u64::from(SPHERES_FIRST), samples, Ask::Any)?;
+    let mut known = Vec::with_capacity(samples);
+    while known.len() < samples {
+        account.cancellation().check()?;
+        let first = u64::from(SPHERES_FIRST) + known.len() as u64;
+        let count = AT_ONCE.min(samples - known.len());
+        let next = sampler.samples(Region::Bounds, first, count, Ask::Any);
+        known.extend(next.map_err(NoSpheres::Robot)?);
+    }
     let found = levels.iter().map(|level| {
         let spheres: Spheres = (level.links.iter())
             .map(|own| own.iter().map(|(sphere, _)| *sphere).collect())
@@ -201,7 +223,9 @@ fn contacts<R: Moves>(
                 checked.is_ok_and(|number| !level.ignored[number])
             })
             .collect();
-        let touching = touching(&spheres, &all, &known);
+        let touching = touching(&spheres, &all, &known, account).map_err(|costly| {
+            NoSpheres::of_account(&costly.links.map(|link| pairs.links[link]), costly.error)
+        })?;
         let mut found = Found { contacts: vec![0; all.len()], rates: SphereRates::default() };
         for (sample, touching) in known.iter().zip(touching) {
             let touches = touching.iter().any(|pair| asked[*pair as usize]);
@@ -210,29 +234,30 @@ fn contacts<R: Moves>(
                 found.contacts[pair as usize] += 1;
             }
         }
-        found
+        Ok(found)
     });
-    Ok(found.collect())
+    found.collect()
 }
 
 /// The level as the module has it.
-fn written<R>(
+fn written<R: Moves>(
     subject: &Subject<R>,
     level: &Made,
     pieces: &[Pieces],
     found: &Found,
-    cancellation: &Cancellation,
-) -> Result<SphereLevel, Cancelled> {
+    account: &Account,
+) -> Result<SphereLevel, NoSpheres<R::Error>> {
     let pairs = subject.pairs;
     let samples = found.rates.colliding + found.rates.free;
     let mut spheres = vec![Vec::new(); subject.num_links];
     let mut fits = vec![None; subject.num_links];
-    let figures: Vec<_> = (level.links.par_iter().zip(pieces))
-        .map(|(own, pieces)| {
+    let figures: Vec<_> = (level.links.par_iter().zip(pieces).zip(&pairs.links))
+        .map(|((own, pieces), link)| {
             let own: Vec<Sphere> = own.iter().map(|(sphere, _)| *sphere).collect();
-            (!own.is_empty()).then(|| pieces.fit(&own, cancellation)).transpose()
+            let fit = (!own.is_empty()).then(|| pieces.fit(&own, account)).transpose();
+            fit.map_err(|error| NoSpheres::of_account(&[*link], error))
         })
-        .collect::<Result<_, Cancelled>>()?;
+        .collect::<Result<_, _>>()?;
     for ((link, own), fit) in pairs.links.iter().zip(&level.links).zip(figures) {
         let one = |(sphere, outer): &(Sphere, usize)| LinkSphere {
             radius: sphere.radius,

@@ -1,13 +1,16 @@
 //! The surface of a link: points on it, the target of its spheres' surface; and how far spheres are from it, by the points of
 //! SPEC 8.9.5.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::f64::consts::TAU;
 
 use nalgebra::Isometry3;
 
 use crate::frame::{Point, add, dot, norm, scaled, sub};
-use crate::model::{Sphere, distance};
-use urdd_directory::cancellation::{Cancellation, Cancelled};
+use crate::model::Sphere;
+use crate::tree::{SphereTree, bits};
+use urdd_directory::account::{Account, AccountError};
 use urdd_format::link_shapes_spheres::SphereFit;
 use urdd_geometry::Mesh;
 use urdd_geometry::bounding_sphere::{BoundingSphere, about};
@@ -95,6 +98,14 @@ const WITHIN: f64 = 1e-6;
 /// The number of parts that an edge as long as the size is cut into.
 const PARTS: f64 = 15.7;
 
+/// Spheres that are looked at for nothing: it takes as long as to measure the distance of a piece.
+const FREE: usize = 128;
+
+/// Charges the spheres that were looked at for a point.
+fn charge(steps: usize, account: &Account) -> Result<(), AccountError> {
+    account.charge(steps.saturating_sub(FREE))
+}
+
 /// The directions of the points on each sphere.
 fn directions() -> impl Iterator<Item = Point> {
     (0..DIRECTIONS).map(|k| {
@@ -148,37 +159,42 @@ impl Pieces {
         Ok(Pieces { pieces, size, surface })
     }
 
-    /// The figures of spheres of this link. With very many spheres this takes long.
+    /// The figures of spheres of this link.
     ///
     /// # Errors
-    /// If it is cancelled.
-    pub fn fit(
-        &self,
-        spheres: &[Sphere],
-        cancellation: &Cancellation,
-    ) -> Result<SphereFit, Cancelled> {
+    /// If so many of them are around the same points that the account does not have what it takes.
+    pub fn fit(&self, spheres: &[Sphere], account: &Account) -> Result<SphereFit, AccountError> {
         let (mut most, mut sum, mut weights) = (0.0f64, 0.0, 0.0);
-        for (own, sphere) in spheres.iter().enumerate() {
-            cancellation.check()?;
-            for direction in directions() {
-                let point = add(sphere.centre, scaled(direction, sphere.radius));
-                let holds = |(other, of): (usize, &Sphere)| {
-                    other != own && norm(sub(point, of.centre)) < (1.0 - WITHIN) * of.radius
-                };
-                if spheres.iter().enumerate().any(holds) {
-                    continue;
+        let tree = SphereTree::new(spheres);
+        // Equal spheres are measured once.
+        let mut measured: HashMap<[u64; 4], Vec<f64>> = HashMap::new();
+        for sphere in spheres {
+            let aways = match measured.entry(bits(sphere)) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(new) => {
+                    let mut aways = Vec::new();
+                    for direction in directions() {
+                        let point = add(sphere.centre, scaled(direction, sphere.radius));
+                        let (is_held, steps) = tree.holds(point, 1.0 - WITHIN, sphere);
+                        charge(steps, account)?;
+                        if !is_held {
+                            aways.push(self.distance(point));
+                        }
+                    }
+                    new.insert(aways)
                 }
-                let away = self.distance(point);
-                let weight = sphere.radius * sphere.radius;
-                most = most.max(away);
-                sum += weight * away;
+            };
+            let weight = sphere.radius * sphere.radius;
+            for away in aways {
+                most = most.max(*away);
+                sum += weight * *away;
                 weights += weight;
             }
         }
         let (mut uncovered, mut area, mut farthest) = (0.0, 0.0, 0.0f64);
         for (point, weight) in &self.surface {
-            cancellation.check()?;
-            let off = spheres.iter().map(|s| distance(s, *point)).fold(f64::INFINITY, f64::min);
+            let (off, steps) = tree.distance(*point);
+            charge(steps, account)?;
             area += weight;
             if off > WITHIN * self.size {
                 uncovered += weight;

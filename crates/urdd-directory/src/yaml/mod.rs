@@ -1,12 +1,14 @@
 //! Checks that a YAML file mirrors a JSON document.
 
+mod aliases;
 mod compare;
 mod open;
 pub mod places;
 pub mod scalar;
 /// Reads a YAML file of another program.
 pub mod words {
-    pub use super::places::{WordsFault, read_words as read};
+    pub use super::aliases::check;
+    pub use super::places::{Words, WordsFault, read_words as read};
 }
 
 use std::collections::HashSet;

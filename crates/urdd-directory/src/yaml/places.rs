@@ -187,8 +187,30 @@ pub struct WordsFault {
 }
 
 impl WordsFault {
-    fn new(at: Marker, reason: impl Into<String>) -> Self {
+    pub(super) fn new(at: Marker, reason: impl Into<String>) -> Self {
         WordsFault { line: at.line(), column: at.col() + 1, reason: reason.into() }
+    }
+}
+
+/// The document of another program's file: a mapping, mostly.
+#[derive(Debug, Default)]
+pub struct Words {
+    /// Its value.
+    pub value: Value,
+    /// For each key of the outermost mapping, where it is, and where the scalars in its value are, in their order: byte
+    /// offsets.
+    places: HashMap<String, Vec<usize>>,
+}
+
+impl Words {
+    /// The place of a key of the outermost mapping, byte offset.
+    pub fn key(&self, key: &str) -> Option<usize> {
+        self.places.get(key)?.first().copied()
+    }
+
+    /// The place of a scalar in the value of such a key, by its number there.
+    pub fn scalar(&self, key: &str, number: usize) -> Option<usize> {
+        self.places.get(key)?.get(number + 1).copied()
     }
 }
 
@@ -196,10 +218,14 @@ impl WordsFault {
 ///
 /// # Errors
 /// If it is not YAML, has a tag, an anchor, an alias, a key twice or one that is no string, or is nested too deep.
-pub fn read_words(text: &str) -> Result<Value, WordsFault> {
+pub fn read_words(text: &str) -> Result<Words, WordsFault> {
     let mut parser = Parser::new_from_str(text);
+    let mut offsets = Offsets::new(text);
     let mut open: Vec<Open> = Vec::new();
     let mut root = None;
+    let mut places: HashMap<String, Vec<usize>> = HashMap::new();
+    // The key of the outermost mapping that was read last.
+    let (mut outermost, mut own) = (String::new(), Vec::new());
     while let Some(next) = parser.next_event() {
         let (event, span) =
             next.map_err(|error| WordsFault::new(*error.marker(), error.info().to_owned()))?;
@@ -237,6 +263,11 @@ pub fn read_words(text: &str) -> Result<Value, WordsFault> {
             },
             Event::Scalar(word, style, ..) => {
                 let is_null = style == ScalarStyle::Plain && matches!(&*word, "" | "~" | "null");
+                if let [Open::Object(_, None)] = &open[..] {
+                    let before = std::mem::replace(&mut outermost, word.to_string());
+                    places.insert(before, std::mem::take(&mut own));
+                }
+                own.push(offsets.bytes(at.index()));
                 if let Some(Open::Object(mapping, key @ None)) = open.last_mut() {
                     if mapping.contains_key(&*word) {
                         return Err(WordsFault::new(at, "this key is there twice"));
@@ -258,7 +289,8 @@ pub fn read_words(text: &str) -> Result<Value, WordsFault> {
             }
         }
     }
-    Ok(root.unwrap_or(Value::Null))
+    places.insert(outermost, own);
+    Ok(Words { value: root.unwrap_or(Value::Null), places })
 }
 
 /// Whether a key is due, where no list or mapping can stand.

@@ -16,7 +16,7 @@ fn hidden_characters_are_escapes_and_names_stay_the_same() {
         "é",
     ];
     for name in names {
-        let terms = [(unplaced(format!("j{name}")), vec![1.0])].into();
+        let terms = [(unplaced(format!("j{name}").into()), [1.0].into())].into();
         let coupling = CouplingTable { name: name.to_owned(), constant: 0.0, terms };
         let file = File { couplings: vec![unplaced(coupling)], ..File::default() };
         let text = file.to_text().expect("a text");
@@ -25,7 +25,7 @@ fn hidden_characters_are_escapes_and_names_stay_the_same() {
         let [coupling] = &again.couplings[..] else { panic!("{text}") };
         assert_eq!(coupling.get_ref().name, name);
         let terms: Vec<String> =
-            coupling.get_ref().terms.keys().map(|name| name.get_ref().clone()).collect();
+            coupling.get_ref().terms.keys().map(|name| name.get_ref().to_string()).collect();
         assert_eq!(terms, [format!("j{name}")]);
     }
 }

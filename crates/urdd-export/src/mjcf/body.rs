@@ -128,7 +128,7 @@ impl<'a> Bodies<'a> {
             element.push(inertial);
         }
         if link == subject.tree.root && subject.has_free_base() {
-            let name = subject.names.taken.clone().free(FLOATING_BASE.to_owned());
+            let name = subject.names.taken.untaken(FLOATING_BASE.to_owned());
             element.push(Element::new("freejoint").with("name", name));
         }
         element.extend(joints);

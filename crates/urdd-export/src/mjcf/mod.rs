@@ -16,7 +16,9 @@ mod keyframes;
 
 use nalgebra::Translation3;
 
-use crate::joints::{Closing, LeftOut, OTHER_KIND, closings as loops_of, is_linear, names};
+use crate::joints::{
+    Closing, LeftOut, OTHER_KIND, closings as loops_of, is_linear, joints_of_dofs, names,
+};
 use crate::output::fill;
 use crate::{Export, ExportError, Files, Note, Stand, Subject, Taken};
 use body::{Bodies, geom_name, placed, site_named};
@@ -198,8 +200,9 @@ fn closings(subject: &Subject, notes: &mut Vec<Note>) -> Result<Closings, Export
             left_out.of_loop(&closing.of.name, OTHER_KIND);
         }
     }
+    let dofs = joints_of_dofs(subject)?;
     for (coupling, name) in module.couplings.iter().zip(&names[module.loops.len()..]) {
-        match equation(subject, coupling, name)? {
+        match equation(subject, &dofs, coupling, name) {
             Some(element) => made.equalities.push(element),
             None => left_out.coupling(&coupling.name, OTHER_SUM),
         }
@@ -222,7 +225,7 @@ impl Closings {
             for ((key, end), on) in [("site1", "a"), ("site2", "b")].into_iter().zip(closing.ends) {
                 // Our names of sites have two slashes and the number of the loop.
                 let name = format!("loop/{}/{end}{number}", closing.number);
-                let name = subject.names.taken.clone().free(name);
+                let name = subject.names.taken.untaken(name);
                 let pose = on.pose * Translation3::new(0.0, 0.0, *along);
                 self.sites[on.link].push(placed(site_named(&name), &pose));
                 element = element.with(key, name);
@@ -236,33 +239,30 @@ impl Closings {
 /// A coupling as an equality of one joint, or of two. `None` if it is of more, or of no joint as a polynomial of the other.
 fn equation(
     subject: &Subject,
+    dofs: &[(Option<usize>, bool)],
     coupling: &Coupling,
     name: &str,
-) -> Result<Option<Element>, ExportError> {
-    let names = subject.robot.dof_names()?;
-    let joint = |dof: usize| {
-        let name = names.get(dof)?;
-        subject.view.joints.iter().find(|joint| joint.name == *name && joint.num_dofs() == 1)
-    };
+) -> Option<Element> {
+    let joint = |dof: usize| Some(&subject.view.joints[dofs.get(dof)?.0?]);
     let (follower, leader) = match &coupling.terms[..] {
         [one] if is_linear(&one.coefficients) => (one, None),
         [one, other] if is_linear(&other.coefficients) => (other, Some(one)),
         [one, other] if is_linear(&one.coefficients) => (one, Some(other)),
-        _ => return Ok(None),
+        _ => return None,
     };
-    let Some(joint1) = joint(follower.dof_idx.get()) else { return Ok(None) };
+    let joint1 = joint(follower.dof_idx.get())?;
     let factor = -1.0 / follower.coefficients[0];
     let mut polynomial = [coupling.constant * factor, 0.0, 0.0, 0.0, 0.0];
     let mut element = Element::new("joint").with("name", name).with("joint1", joint1.name.as_str());
     if let Some(leader) = leader {
-        let Some(joint2) = joint(leader.dof_idx.get()) else { return Ok(None) };
+        let joint2 = joint(leader.dof_idx.get())?;
         element = element.with("joint2", joint2.name.as_str());
         for (to, coefficient) in polynomial[1..].iter_mut().zip(leader.coefficients) {
             *to = coefficient * factor;
         }
     }
     let is_finite = polynomial.iter().all(|number| number.is_finite());
-    Ok(is_finite.then(|| stiff(element.with("polycoef", numbers(&polynomial)))))
+    is_finite.then(|| stiff(element.with("polycoef", numbers(&polynomial))))
 }
 
 fn stiff(element: Element) -> Element {

@@ -1,14 +1,18 @@
 //! Imports a list of spheres that people have, cuRobo's YAML or Foam's JSON: `link_shapes_spheres_module` with a person's
 //! spheres in place of fitted ones.
 
+use std::collections::HashMap;
+
 use serde_json::{Map, Value};
 use thiserror::Error;
 
 use super::{Moving, checked_pairs};
 use crate::ExportError;
 use crate::error::unknown;
-use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_directory::account::{Account, Overdrawn};
+use urdd_directory::cancellation::Cancelled;
 use urdd_directory::limits::MAX_SPHERES_BYTES;
+use urdd_directory::yaml::words::{self, WordsFault};
 use urdd_format::link_shapes_spheres::{LinkShapesSpheresModule, SPHERES_MAX_IN_LEVEL};
 use urdd_format::registry::ModuleKind;
 use urdd_format::short::Short;
@@ -41,6 +45,14 @@ pub enum SpheresError {
     /// A query on the robot failed.
     #[error(transparent)]
     Robot(#[from] ExportError),
+    /// The spheres of some links take too much work.
+    #[error("the spheres of {}: {error}", links.join(" and "))]
+    Costly {
+        /// The links, as they are shown.
+        links: Vec<String>,
+        /// Why.
+        error: Overdrawn,
+    },
     /// It was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -56,12 +68,12 @@ impl From<RobotError> for SpheresError {
 /// origin `Given`. Spheres of links that the robot does not have, or that have no shape, are left out.
 ///
 /// # Errors
-/// If a sphere is out of range, or no link of the list has a shape; if shapes, skips or kinematics of the URDD are missing or
-/// unusable.
+/// If a sphere is out of range, or no link of the list has a shape; if the account does not have what the list takes; if
+/// shapes, skips or kinematics of the URDD are missing or unusable.
 pub fn import_spheres(
     robot: &Robot,
     list: &SphereList,
-    cancellation: &Cancellation,
+    account: &Account,
 ) -> Result<ImportedSpheres, SpheresError> {
     let names = robot.link_names()?;
     let pairs = checked_pairs(robot, names, ShapeKind::Pieces, None)?;
@@ -69,11 +81,12 @@ pub fn import_spheres(
     for reason in &list.left_out {
         left_out.add(|| reason.clone());
     }
+    let places: HashMap<&str, usize> =
+        names.iter().enumerate().rev().map(|(place, name)| (name.as_str(), place)).collect();
     let mut taken = 0;
     for (name, spheres) in &list.links {
         check(name, spheres)?;
-        let link = names.iter().position(|link| link == name);
-        match link {
+        match places.get(name.as_str()).copied() {
             None => {
                 left_out.add(|| unknown("link", name, names.iter().map(String::as_str)).to_string())
             }
@@ -90,8 +103,12 @@ pub fn import_spheres(
     let given = [list.by_link(names)];
     let subject =
         Subject { robot: &Moving(robot), pairs: &pairs, num_links: names.len(), given: &given };
-    let made = module(&subject, cancellation, &|_, _| ()).map_err(|error| match error {
+    let made = module(&subject, account, &|_, _| ()).map_err(|error| match error {
         NoSpheres::Cancelled(cancelled) => SpheresError::Cancelled(cancelled),
+        NoSpheres::Costly(links, error) => {
+            let name = |link: &usize| format!("`{}`", Short::of(&names[*link]).escape_debug());
+            SpheresError::Costly { links: links.iter().map(name).collect(), error }
+        }
         NoSpheres::Robot(error) => error.into(),
         NoSpheres::Piece(link, error) => {
             let module = ModuleKind::ConvexDecompositionMeshes;
@@ -132,7 +149,7 @@ const FARTHEST: f64 = 1e9;
 /// Why a list of spheres cannot be read.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ListError {
-    /// It is not YAML or JSON.
+    /// It is not YAML or JSON, is nested too deep, or too much is made of it.
     #[error("it cannot be read: {0}")]
     Text(String),
     /// It is no list of spheres.
@@ -179,10 +196,13 @@ pub enum SphereFault {
 ///
 /// # Errors
 /// If it is no list of spheres.
-pub fn read_spheres(text: &str) -> Result<SphereList, ListError> {
+pub fn read_spheres(text: &str, account: &Account) -> Result<SphereList, ListError> {
     if text.len() as u64 > MAX_SPHERES_BYTES {
         return Err(ListError::TooLong);
     }
+    words::check(text, account).map_err(|WordsFault { line, column, reason }| {
+        ListError::Text(format!("{reason} at line {line} column {column}"))
+    })?;
     let document: Value =
         serde_yaml::from_str(text).map_err(|error| ListError::Text(error.to_string()))?;
     let kinematics =
@@ -219,6 +239,7 @@ const CUROBO: Form = Form { list: None, centre: "center", has_unused: true };
 const FOAM: Form = Form { list: Some("spheres"), centre: "origin", has_unused: false };
 
 fn read(links: &Map<String, Value>, list: &mut SphereList, form: &Form) -> Result<(), ListError> {
+    let mut count = 0;
     for (name, value) in links {
         let own = match form.list {
             Some(key) => value.get(key),
@@ -241,8 +262,9 @@ fn read(links: &Map<String, Value>, list: &mut SphereList, form: &Form) -> Resul
             }
             spheres.push(checked(centre, radius).map_err(fault)?);
         }
+        count += spheres.len();
         list.links.push((name.clone(), spheres));
-        if list.count() > SPHERES_MAX_IN_LEVEL {
+        if count > SPHERES_MAX_IN_LEVEL {
             return Err(ListError::TooMany);
         }
     }

@@ -8,12 +8,13 @@ pub(super) mod curobo;
 pub(super) mod import;
 pub(super) mod said;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use nalgebra::Isometry3;
 
 use crate::pairs::Decision;
 use crate::{Choices, ExportError, Shapes, Subject};
+use urdd_directory::account::Account;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::link_shapes_spheres::{SphereLevel, SphereOrigin};
 use urdd_format::registry::ModuleKind;
@@ -23,7 +24,7 @@ use urdd_spheres::fit::Limits;
 use urdd_spheres::fitted::{Numbers, auto_limits, fitted, surfaces};
 use urdd_spheres::frame::Point;
 use urdd_spheres::judge::PairFaults;
-use urdd_spheres::model::{Sphere, Spheres};
+use urdd_spheres::model::{Sphere, Spheres, count};
 use urdd_spheres::samples::{Ask, Moves, Pairs, Region, Sample, Sampler};
 use urdd_spheres::{cover, judge};
 
@@ -136,10 +137,11 @@ impl Level {
 
     /// Marks the pairs that a check by this level leaves out.
     fn mark_ignored(&self, pairs: &Pairs, ignored: &mut [bool]) {
+        let own = self.level.ignored_pairs.iter();
+        let own: HashSet<[usize; 2]> =
+            own.map(|of| [of.link_a_idx.get(), of.link_b_idx.get()]).collect();
         for (pair, ignored) in pairs.checked.iter().zip(ignored) {
-            let links = pair.map(|link| pairs.links[link]);
-            let mut own = self.level.ignored_pairs.iter();
-            *ignored = own.any(|of| [of.link_a_idx.get(), of.link_b_idx.get()] == links);
+            *ignored = own.contains(&pair.map(|link| pairs.links[link]));
         }
     }
 
@@ -213,6 +215,9 @@ pub(super) fn checked_pairs(
     })?)
 }
 
+/// What a sphere adds to the account, bytes: about what a file says of it.
+const SPHERE: usize = 100;
+
 /// Maximum number of wrong results that are traced to pairs.
 const TRACED: usize = 2000;
 
@@ -257,24 +262,34 @@ fn measure(
     if pairs.checked.is_empty() {
         return Ok(measured);
     }
-    let gaps = |samples: &[Sample]| {
-        // Only whether they touch matters here.
-        judge::gaps(spheres, &pairs.checked, ignored, samples, f64::MIN_POSITIVE)
+    let account = Account::default();
+    account.deposit(count(spheres) * SPHERE);
+    let touch = |samples: &[Sample]| {
+        let found = judge::any_touching(spheres, &pairs.checked, ignored, samples, &account);
+        found.map_err(|costly| RobotError::Unusable {
+            module: ModuleKind::LinkShapesSpheres,
+            reason: format!(
+                "the spheres of links {:?}: {}",
+                costly.links.map(|link| pairs.links[link]),
+                costly.error
+            ),
+        })
     };
     let sampler = Sampler { robot: &Moving(robot), pairs };
     let zero = sampler.zero(Ask::Any)?;
-    measured.default = [zero.collides(), gaps(std::slice::from_ref(&zero))[0] <= 0.0];
+    measured.default = [zero.collides(), touch(std::slice::from_ref(&zero))?[0]];
     let mut wrong: Vec<Sample> = Vec::new();
     let mut count = |region| -> Result<SphereRates, RobotError> {
         let (first, number) = (Numbers::MEASURE, numbers.measure);
         let known = sampler.samples(region, first, number, Ask::Any)?;
-        let gaps = gaps(&known);
-        for (k, (sample, gap)) in known.iter().zip(&gaps).enumerate() {
-            if sample.collides() != (*gap <= 0.0) && wrong.len() < TRACED {
+        let mut rates = SphereRates::default();
+        for (k, (sample, touches)) in known.iter().zip(touch(&known)?).enumerate() {
+            rates.count(sample.collides(), touches);
+            if sample.collides() != touches && wrong.len() < TRACED {
                 wrong.push(sampler.nth(region, first, k, Ask::Pairs)?);
             }
         }
-        Ok(judge::rates(&known, &gaps))
+        Ok(rates)
     };
     measured.rates = Some(count(Region::Bounds)?);
     if near {

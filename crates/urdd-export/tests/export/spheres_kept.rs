@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 use testkit::robots::made_bars;
 use testkit::temporary;
-use urdd_directory::cancellation::Cancellation;
+use urdd_directory::account::Account;
 use urdd_export::{
     Choices, Format, ListError, SphereFault, SphereList, SpheresError, import_spheres, read_spheres,
 };
@@ -62,6 +62,10 @@ fn exports_write_the_level_that_the_urdd_has() {
     assert!(!few["about"].to_string().contains("link_shapes_spheres_module"));
 }
 
+fn read(text: &str) -> Result<SphereList, ListError> {
+    read_spheres(text, &Account::default())
+}
+
 #[test]
 fn a_list_becomes_the_last_level_in_each_form() {
     let folder = temporary::folder();
@@ -70,10 +74,9 @@ fn a_list_becomes_the_last_level_in_each_form() {
     let foam = json!({ "links": { "b": { "mean": 0.0, "spheres": [
         { "origin": [0.1, 0.0, 0.0], "radius": 0.04 }, { "origin": [0.3, 0.0, 0.0], "radius": 0.05 },
     ] } } });
-    let cancellation = Cancellation::default();
     for (text, left_out) in [(curobo.to_owned(), 3), (foam.to_string(), 0)] {
-        let list = read_spheres(&text).expect("a list");
-        let imported = import_spheres(&robot, &list, &cancellation).expect("spheres");
+        let list = read(&text).expect("a list");
+        let imported = import_spheres(&robot, &list, &Account::default()).expect("spheres");
         assert_eq!(
             (imported.taken, imported.left_out.len()),
             (2, left_out),
@@ -109,7 +112,7 @@ fn a_urdd_without_the_module_gets_it_and_its_version() {
         )],
         left_out: Vec::new(),
     };
-    let imported = import_spheres(&robot, &list, &Cancellation::default()).expect("spheres");
+    let imported = import_spheres(&robot, &list, &Account::default()).expect("spheres");
     let metadata: Value = serde_json::from_slice(&imported.files["urdd.json"]).expect("JSON");
     assert_eq!(metadata["urdd_version"], "1.1.0");
     let names = metadata["modules"].as_array().expect("modules").iter();
@@ -132,7 +135,7 @@ fn what_is_no_list_of_this_robot_is_refused() {
         format!("collision_spheres: {{b: [{{center: {centre}, radius: {radius}}}]}}")
     };
     let of_foam = |radius: &str| {
-        read_spheres(&format!(
+        read(&format!(
             "{{\"b\": {{\"spheres\": [{{\"origin\": [0, 0, 0], \"radius\": {radius}}}]}}}}"
         ))
     };
@@ -144,41 +147,83 @@ fn what_is_no_list_of_this_robot_is_refused() {
         assert!(matches!(fault(of_foam(radius)), SphereFault::Radius(_)));
     }
     assert_eq!(fault(of_foam("1e300")), SphereFault::Range(1e300));
-    assert_eq!(fault(read_spheres(&list("1", "[0, 0]"))), SphereFault::Key("center"));
-    assert_eq!(fault(read_spheres(&list(".nan", "[0, 0, 0]"))), SphereFault::Key("radius"));
-    assert_eq!(fault(read_spheres(&list("1", "[2e9, 0, 0]"))), SphereFault::Range(2e9));
+    assert_eq!(fault(read(&list("1", "[0, 0]"))), SphereFault::Key("center"));
+    assert_eq!(fault(read(&list(".nan", "[0, 0, 0]"))), SphereFault::Key("radius"));
+    assert_eq!(fault(read(&list("1", "[2e9, 0, 0]"))), SphereFault::Range(2e9));
     for text in ["", "[]", "links: 3", "{}", "collision_spheres: 3", "a: {spheres: 3}"] {
-        assert_eq!(read_spheres(text), Err(ListError::NoSpheres), "{text}");
+        assert_eq!(read(text), Err(ListError::NoSpheres), "{text}");
     }
-    assert!(matches!(
-        read_spheres("collision_spheres: spheres/a.yml"),
-        Err(ListError::Elsewhere(_))
-    ));
-    assert!(matches!(read_spheres("a: [unclosed"), Err(ListError::Text(_))));
+    assert!(matches!(read("collision_spheres: spheres/a.yml"), Err(ListError::Elsewhere(_))));
+    assert!(matches!(read("a: [unclosed"), Err(ListError::Text(_))));
     let one = "{\"origin\": [0, 0, 0], \"radius\": 1},";
     let many =
         format!("{{\"b\": {{\"spheres\": [{}]}}}}", one.repeat(65_537).trim_end_matches(','));
-    assert_eq!(read_spheres(&many), Err(ListError::TooMany));
+    assert_eq!(read(&many), Err(ListError::TooMany));
     let long = " ".repeat((16 << 20) + 1);
-    assert_eq!(read_spheres(&long), Err(ListError::TooLong));
+    assert_eq!(read(&long), Err(ListError::TooLong));
     // Aliases that would make gigabytes of a kilobyte.
     let bomb: String =
         (1..30).map(|k| format!("k{k}: &k{k} [*k{p}, *k{p}, *k{p}, *k{p}]\n", p = k - 1)).collect();
-    assert!(matches!(read_spheres(&format!("k0: &k0 [1]\n{bomb}")), Err(ListError::Text(_))));
+    assert!(matches!(read(&format!("k0: &k0 [1]\n{bomb}")), Err(ListError::Text(_))));
 
     let folder = temporary::folder();
     let robot = with_spheres(folder.path());
-    let other = read_spheres(
+    let other = read(
         "collision_spheres: {hand: [{center: [0, 0, 0], radius: 1}], frame: [{center: [0, 0, 0], radius: 1}]}",
     );
-    let refused = import_spheres(&robot, &other.expect("a list"), &Cancellation::default());
+    let refused = import_spheres(&robot, &other.expect("a list"), &Account::default());
     let Err(SpheresError::OtherRobot(said)) = refused else { panic!("{refused:?}") };
     assert!(said.contains("`hand`") && said.contains("`frame` has no shape"), "{said}");
     // Of very many, few are named.
     let one = vec![urdd_export::Sphere { centre: [0.0; 3], radius: 0.1 }];
     let links = (0..30_000).map(|k| (format!("link_{k}"), one.clone())).collect();
     let many = SphereList { links, left_out: Vec::new() };
-    let refused = import_spheres(&robot, &many, &Cancellation::default());
+    let refused = import_spheres(&robot, &many, &Account::default());
     let Err(SpheresError::OtherRobot(said)) = refused else { panic!("{refused:?}") };
     assert!(said.ends_with("; 29980 more of the list") && said.len() < 2000, "{said}");
+}
+
+/// Of each kind of list what multiplies: aliases, brackets, links, and spheres around the same points.
+#[test]
+fn lists_that_multiply_are_refused_before_they_do() {
+    let place = |text: &str| match read(text) {
+        Err(ListError::Text(said)) => said,
+        other => panic!("{:?}", other.map(|list| list.count())),
+    };
+    // One that is open is looked for at each bracket that follows.
+    let said = place(&format!("a:\n  {}", "[".repeat(200_000)));
+    assert!(said.starts_with("it is nested too deep at line 2 column 102"), "{said}");
+    let said = place(&format!("{}", "{a: ".repeat(200_000)));
+    assert!(said.starts_with("it is nested too deep at line 1"), "{said}");
+    // A list of many, or one long word, by a short name.
+    let numbers = "1,".repeat(10_000);
+    let lists = "*a,".repeat(1000);
+    let said = place(&format!("x: &a [{numbers}]\ny:\n  - [{lists}]\n"));
+    assert!(said.contains("memory or work") && said.contains("at line 3"), "{said}");
+    let said = place(&format!("x: &a {}\ny: [{}]\n", "x".repeat(1 << 20), "*a,".repeat(200)));
+    assert!(said.contains("memory or work") && said.contains("at line 2"), "{said}");
+    // Aliases that make little are read.
+    let list = read("x: &a {center: [0, 0, 0], radius: 0.1}\ncollision_spheres: {a: [*a, *a]}");
+    assert_eq!(list.expect("a list").count(), 2);
+    // So are very many links without a sphere.
+    let links: String = (0..60_000).map(|k| format!("l{k}: [],")).collect();
+    assert_eq!(read(&format!("collision_spheres: {{{links}}}")).expect("a list").count(), 0);
+
+    let folder = temporary::folder();
+    let robot = with_spheres(folder.path());
+    let of = |links: &[(&str, &dyn Fn(u32) -> urdd_export::Sphere, u32)]| SphereList {
+        links: links
+            .iter()
+            .map(|(link, one, count)| ((*link).to_owned(), (0..*count).map(*one).collect()))
+            .collect(),
+        left_out: Vec::new(),
+    };
+    let same = |_| urdd_export::Sphere { centre: [0.1, 0.0, 0.0], radius: 0.04 };
+    let near =
+        |k: u32| urdd_export::Sphere { centre: [0.1, 0.0, 1e-12 * f64::from(k)], radius: 0.04 };
+    let taken = import_spheres(&robot, &of(&[("b", &same, 5000)]), &Account::default());
+    assert_eq!(taken.expect("equal ones are looked at once").taken, 5000);
+    let refused = import_spheres(&robot, &of(&[("b", &near, 5000)]), &Account::default());
+    let said = refused.map(|found| found.taken).expect_err("64 times 25 million").to_string();
+    assert!(said.starts_with("the spheres of `b`: ") && said.contains("memory or work"), "{said}");
 }

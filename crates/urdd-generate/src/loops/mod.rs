@@ -1,6 +1,7 @@
 //! `loops_module`: SPEC 6.8.
 
 mod closed;
+mod names;
 mod resolved;
 
 use std::ops::Range;
@@ -40,7 +41,8 @@ impl Made<'_> {
             return Ok((None, Vec::new()));
         };
         let mut notes = Vec::new();
-        let mut module = self.resolved(said, &mut notes)?;
+        let known = self.names();
+        let mut module = self.resolved(said, &known, &mut notes)?;
         if module.loops.is_empty() && module.couplings.is_empty() {
             return Ok((None, notes));
         }
@@ -77,9 +79,9 @@ impl Made<'_> {
         loops = made(&module)?;
         let poses = self.kinematics.link_poses(&reference);
         let poses = poses.map_err(|error| self.refused(said, None, error.to_string()))?;
-        let preferred = self.preferred(said, &loops, &mut notes)?;
+        let preferred = self.preferred((said, &known), &loops, &mut notes)?;
         let mobility = loops.mobility(self.kinematics, &reference, &poses, |dof| preferred[dof]);
-        notes.extend(self.otherwise(said, &loops, &mobility));
+        notes.extend(self.otherwise((said, &known), &loops, &mobility));
         let index = |dof: usize| DofIdx(u32::try_from(dof).unwrap_or(u32::MAX));
         module.independent_dof_idxs = mobility.independent.iter().copied().map(index).collect();
         let mut gaps = widest;

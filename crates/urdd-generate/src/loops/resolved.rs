@@ -1,17 +1,17 @@
 //! What a source says of loops, by the robot's indices; and the terms of a coupling, added up.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 
 use toml::Spanned;
 
 use super::Made;
+use super::names::Names;
 use crate::error::{Result, first_names};
 use urdd_directory::export_toml::Name;
 use urdd_directory::loops_toml::{CouplingTable, FrameTable, LoopTable};
-use urdd_format::index::{DofIdx, LinkIdx};
+use urdd_format::index::DofIdx;
 use urdd_format::loops::{Coupling, CouplingTerm, Loop, LoopsModule};
-use urdd_format::nearest::nearest;
 use urdd_format::short::Short;
 use urdd_format::urdf::JointType;
 use urdd_kinematics::loops::{Loops, Mobility};
@@ -24,9 +24,12 @@ type Faulty = (Range<usize>, String);
 
 impl Made<'_> {
     /// The loops and couplings by index, without configurations.
-    pub(super) fn resolved(&self, said: &Said, notes: &mut Vec<Note>) -> Result<LoopsModule> {
-        let links = self.chain.links_in_chain.iter().map(|link| link.name.as_str());
-        let links: HashMap<&str, usize> = links.zip(0..).collect();
+    pub(super) fn resolved(
+        &self,
+        said: &Said,
+        known: &Names<'_>,
+        notes: &mut Vec<Note>,
+    ) -> Result<LoopsModule> {
         let File { loops, couplings, .. } = &said.file;
         let mut names: HashSet<&str> = HashSet::new();
         let mut is_new = |name| match names.insert(name) {
@@ -43,7 +46,7 @@ impl Made<'_> {
         for one in loops {
             let name = &one.get_ref().name;
             let read = is_new(name).map_err(|fault| (one.span(), fault));
-            match read.and_then(|()| self.closing(one, &links)) {
+            match read.and_then(|()| self.closing(one, known)) {
                 Ok(one) => module.loops.push(one),
                 Err((place, fault)) => {
                     notes.push(self.fault(said, (one.span(), place), name, fault)?);
@@ -53,7 +56,7 @@ impl Made<'_> {
         for one in couplings {
             let name = &one.get_ref().name;
             let read = is_new(name).map_err(|fault| (one.span(), fault));
-            let sum = match read.and_then(|()| self.sum(one)) {
+            let sum = match read.and_then(|()| self.sum(one, known)) {
                 Ok(sum) => sum,
                 Err((place, fault)) => {
                     notes.push(self.fault(said, (one.span(), place), name, fault)?);
@@ -81,23 +84,13 @@ impl Made<'_> {
     }
 
     /// A loop, or what is wrong and where.
-    fn closing(
-        &self,
-        one: &Spanned<LoopTable>,
-        links: &HashMap<&str, usize>,
-    ) -> Result<Loop, Faulty> {
+    fn closing(&self, one: &Spanned<LoopTable>, known: &Names<'_>) -> Result<Loop, Faulty> {
         let of = one.get_ref();
         let link = |name: &Name| {
             let word = name.get_ref().as_str();
-            // Extended URDF also names joints, and means their children.
-            let joints = || {
-                let mut joints = self.chain.joints_in_chain.iter();
-                joints.find(|joint| joint.joint_name == word).map(|joint| joint.child_link_idx)
-            };
-            let link = links.get(word).and_then(|idx| u32::try_from(*idx).ok()).map(LinkIdx);
-            link.or_else(joints).ok_or_else(|| {
-                let known = self.chain.links_in_chain.iter().map(|link| link.name.as_str());
-                (name.span(), unknown("link", word, known))
+            known.link(word).ok_or_else(|| {
+                let all = self.chain.links_in_chain.iter().map(|link| link.name.as_str());
+                (name.span(), known.unknown("link", word, all))
             })
         };
         let (link_a_idx, link_b_idx) = (link(&of.link_a)?, link(&of.link_b)?);
@@ -126,7 +119,7 @@ impl Made<'_> {
     }
 
     /// A coupling, maybe without terms, or what is wrong and where.
-    fn sum(&self, one: &Spanned<CouplingTable>) -> Result<Coupling, Faulty> {
+    fn sum(&self, one: &Spanned<CouplingTable>, known: &Names<'_>) -> Result<Coupling, Faulty> {
         let of = one.get_ref();
         let name = Short::of(&of.name);
         if !of.constant.is_finite() {
@@ -136,26 +129,25 @@ impl Made<'_> {
         let mut sum = Terms::new(of.constant);
         let mut names_dof = false;
         for (name, coefficients) in &of.terms {
-            let word = name.get_ref().as_str();
-            let dofs = self.dofs(word);
+            let word = &**name.get_ref();
             let coefficients = four(coefficients).ok_or_else(|| {
                 let word = Short::of(word);
                 let fault = format!("one to four finite coefficients are needed for `{word}`");
                 (name.span(), fault)
             })?;
-            match *dofs {
+            match *known.dofs(word) {
                 [idx] => {
                     sum.add(DofIdx(u32::try_from(idx).unwrap_or(u32::MAX)), coefficients, None);
                     names_dof = true;
                 }
-                [] => match self.coupled(word, coefficients, &mut sum) {
+                [] => match self.coupled(word, coefficients, known, &mut sum) {
                     Some(moves) => names_dof |= moves,
                     None => {
-                        let known = self.dof.dofs.iter().map(|dof| dof.name.as_str());
-                        return Err((name.span(), unknown("DOF", word, known)));
+                        let all = self.dof.dofs.iter().map(|dof| dof.name.as_str());
+                        return Err((name.span(), known.unknown("DOF", word, all)));
                     }
                 },
-                [..] => {
+                ref dofs => {
                     let dofs: Vec<&str> =
                         dofs.iter().map(|dof| self.dof.dofs[*dof].name.as_str()).collect();
                     let (word, dofs) = (Short::of(word), named(&dofs));
@@ -174,21 +166,16 @@ impl Made<'_> {
         Ok(Coupling { name: of.name.clone(), constant, terms })
     }
 
-    /// The DOFs of this name: of a DOF, or all of a joint.
-    fn dofs(&self, name: &str) -> Vec<usize> {
-        let all = self.dof.dofs.iter().enumerate();
-        let named: Vec<usize> =
-            all.clone().filter(|(_, dof)| dof.name == name).map(|(idx, _)| idx).take(1).collect();
-        match named.is_empty() {
-            true => all.filter(|(_, dof)| dof.joint_name == name).map(|(idx, _)| idx).collect(),
-            false => named,
-        }
-    }
-
     /// What a joint without a DOF of its own adds to a coupling: a mimic joint a term of its driver, a fixed one nothing.
     /// Whether it moves; `None` if there is no such joint.
-    fn coupled(&self, name: &str, coefficients: [f64; 4], sum: &mut Terms) -> Option<bool> {
-        let idx = self.chain.joints_in_chain.iter().position(|joint| joint.joint_name == name)?;
+    fn coupled(
+        &self,
+        name: &str,
+        coefficients: [f64; 4],
+        known: &Names<'_>,
+        sum: &mut Terms,
+    ) -> Option<bool> {
+        let idx = known.joint(name)?;
         if self.chain.joints_in_chain[idx].joint_type == JointType::Fixed {
             return Some(false);
         }
@@ -206,7 +193,7 @@ impl Made<'_> {
     /// For each DOF, how much rather it is to move freely than to follow: 0 to 2.
     pub(super) fn preferred(
         &self,
-        said: &Said,
+        (said, known): (&Said, &Names<'_>),
         loops: &Loops,
         notes: &mut Vec<Note>,
     ) -> Result<Vec<u8>> {
@@ -220,25 +207,24 @@ impl Made<'_> {
         let mut says_one = false;
         for name in names {
             let word = name.get_ref().as_str();
-            let dofs = self.dofs(word);
+            let dofs = known.dofs(word);
             if dofs.is_empty() && said.text.is_some() {
-                let mut joints = self.chain.joints_in_chain.iter();
-                match joints.any(|joint| joint.joint_name == word) {
+                match known.joint(word).is_some() {
                     true => fixed.push(word),
                     false => none.push(word),
                 }
             }
             for dof in dofs {
-                says_one |= preferred[dof] < 2;
-                preferred[dof] = preferred[dof].max(1);
+                says_one |= preferred[*dof] < 2;
+                preferred[*dof] = preferred[*dof].max(1);
             }
         }
-        for dof in said.first.iter().flat_map(|word| self.dofs(word)) {
-            preferred[dof] = 2;
+        for dof in said.first.iter().flat_map(|word| known.dofs(word)) {
+            preferred[*dof] = 2;
         }
         if let Some(first) = none.first() {
-            let known = self.dof.dofs.iter().map(|dof| dof.name.as_str());
-            let problem = unknown("joint", first, known);
+            let all = self.dof.dofs.iter().map(|dof| dof.name.as_str());
+            let problem = known.unknown("joint", first, all);
             let problem = format!("a joint is said to move freely, but {problem}");
             let assumed = "the name is passed over";
             notes.push(self.note(NoteKind::LeftOut, problem, assumed));
@@ -264,19 +250,21 @@ impl Made<'_> {
     /// What moves freely though the source does not say so, or follows though it does.
     pub(super) fn otherwise(
         &self,
-        said: &Said,
+        (said, known): (&Said, &Names<'_>),
         loops: &Loops,
         mobility: &Mobility,
     ) -> Option<Note> {
         let told = said.file.independent.as_ref()?;
-        let told: HashSet<usize> = told.iter().flat_map(|name| self.dofs(name.get_ref())).collect();
-        let first: HashSet<usize> = said.first.iter().flat_map(|name| self.dofs(name)).collect();
+        let told: HashSet<&usize> =
+            told.iter().flat_map(|name| known.dofs(name.get_ref())).collect();
+        let first: HashSet<&usize> = said.first.iter().flat_map(|name| known.dofs(name)).collect();
+        let moved: HashSet<usize> = loops.dofs().map(|dof| dof.get()).collect();
         let name = |dof: &usize| self.dof.dofs[*dof].name.as_str();
         let free: Vec<&str> = mobility
             .independent
             .iter()
             .filter(|dof| !told.contains(dof))
-            .filter(|dof| loops.dofs().any(|of| of.get() == **dof))
+            .filter(|dof| moved.contains(dof))
             .map(name)
             .collect();
         let follow: Vec<&str> = mobility
@@ -329,13 +317,6 @@ fn named(names: &[&str]) -> String {
     first_names(names.iter().map(|name| Short::of(name)))
 }
 
-fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n str>) -> String {
-    let near = nearest(known, name);
-    let near =
-        near.map_or_else(String::new, |near| format!("; did you mean `{}`?", Short::of(&near)));
-    format!("there is no {what} `{}`{near}", Short::of(name))
-}
-
 /// A sum that is smaller than this fraction of its summands is 0.
 const ROUNDING: f64 = 1e-14;
 
@@ -353,12 +334,13 @@ fn substituted([a, b, c, d]: [f64; 4], m: f64, o: f64) -> (f64, [f64; 4]) {
 /// What is added up for a coupling; of each number, the sum and the sum of the absolute values.
 struct Terms {
     constant: [f64; 2],
-    terms: Vec<(CouplingTerm, [f64; 4])>,
+    /// For each DOF, its coefficients and their absolute values, added up.
+    terms: BTreeMap<DofIdx, [[f64; 4]; 2]>,
 }
 
 impl Terms {
     pub(super) fn new(constant: f64) -> Self {
-        Terms { constant: [constant, constant.abs()], terms: Vec::new() }
+        Terms { constant: [constant, constant.abs()], terms: BTreeMap::new() }
     }
 
     fn add_constant(&mut self, constant: f64, size: f64) {
@@ -368,13 +350,13 @@ impl Terms {
 
     pub(super) fn add(&mut self, dof_idx: DofIdx, coefficients: [f64; 4], sizes: Option<[f64; 4]>) {
         let sizes = sizes.unwrap_or_else(|| coefficients.map(f64::abs));
-        let Some((term, of)) = self.terms.iter_mut().find(|(term, _)| term.dof_idx == dof_idx)
-        else {
-            return self.terms.push((CouplingTerm { dof_idx, coefficients }, sizes));
+        let Some(sums) = self.terms.get_mut(&dof_idx) else {
+            self.terms.insert(dof_idx, [coefficients, sizes]);
+            return;
         };
         for place in 0..4 {
-            term.coefficients[place] += coefficients[place];
-            of[place] += sizes[place];
+            sums[0][place] += coefficients[place];
+            sums[1][place] += sizes[place];
         }
     }
 
@@ -382,15 +364,13 @@ impl Terms {
     pub(super) fn done(self) -> (f64, Vec<CouplingTerm>) {
         let rounded = |sum: f64, size: f64| if sum.abs() <= ROUNDING * size { 0.0 } else { sum };
         let [constant, size] = self.constant;
-        let terms = self.terms.into_iter().map(|(mut term, sizes)| {
-            for (sum, size) in term.coefficients.iter_mut().zip(sizes) {
+        let terms = self.terms.into_iter().map(|(dof_idx, [mut coefficients, sizes])| {
+            for (sum, size) in coefficients.iter_mut().zip(sizes) {
                 *sum = rounded(*sum, size);
             }
-            term
+            CouplingTerm { dof_idx, coefficients }
         });
         let is_there = |term: &CouplingTerm| term.coefficients.iter().any(|x| *x != 0.0);
-        let mut terms: Vec<CouplingTerm> = terms.filter(is_there).collect();
-        terms.sort_by_key(|term| term.dof_idx);
-        (rounded(constant, size), terms)
+        (rounded(constant, size), terms.filter(is_there).collect())
     }
 }

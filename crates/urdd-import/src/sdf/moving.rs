@@ -230,6 +230,8 @@ pub fn closing(
 const PARALLEL: f64 = 1e-9;
 /// Bodies between two links; what has more is left out.
 const LONGEST: usize = 1000;
+/// What each of these costs.
+const STEP: usize = 20;
 
 /// The equation of a gearbox. `at` has the body of each link, and of the world behind them; `poses` are those of the bodies.
 /// `None`, with a remark, where joints turn about other axes.
@@ -328,6 +330,7 @@ fn turned<'b>(
         if steps > LONGEST {
             return Ok(false);
         }
+        account.charge(STEP)?;
         let (body, sign) = if to > from { (to, factor) } else { (from, -factor) };
         for joint in bodies[body].joints.walk(account)? {
             let own = poses[body].rotation * joint.frame.rotation * joint.axis;

@@ -1,7 +1,8 @@
 use std::cell::LazyCell;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use nalgebra::Isometry3;
+use urdd_directory::account::Account;
 use urdd_directory::loops_toml::{File, FrameTable};
 use urdd_document::pose::unit;
 use urdd_document::robot::{Joint, Robot};
@@ -13,7 +14,7 @@ use urdd_geometry::convex::{ConvexShape, penetration};
 use urdd_kinematics::loops::Gap;
 use urdd_kinematics::pose::from_xyz_rpy;
 use urdd_kinematics::{Load, gather};
-use urdd_source::loops::urdf_plus;
+use urdd_source::loops::{LoopFault, urdf_plus};
 
 use super::prelude::*;
 use crate::geometry::Shape;
@@ -279,14 +280,19 @@ fn self_collision_in_default(urdf: &Subject, findings: &mut Findings) -> Option<
 const MEET: f64 = 1e-6;
 
 fn closed_chain(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    let of_urdf = urdf_plus(urdf.root).map_or_else(Vec::new, |(_, faults)| faults);
+    let account = Account::new(&urdf.settings.source.cancellation);
+    account.deposit(urdf.root.document().input_text().len());
+    // What costs too much is an error of the source.
+    let of_urdf = urdf_plus(urdf.root, &account).ok()?.map_or_else(Vec::new, |(_, faults)| faults);
+    let of_urdf: BTreeMap<usize, LoopFault> =
+        of_urdf.into_iter().map(|fault| (fault.offset, fault)).collect();
     let is_closing = |(name, node): &(&str, Node)| {
         let has_end = |end: &&str| child(*node, end).is_some();
         ["loop", "coupling"].contains(name) && ["predecessor", "successor"].iter().any(has_end)
     };
     let all = children(urdf.root).filter(is_closing);
     let fault_of = |(_, node): &(&str, Node)| {
-        of_urdf.iter().find(|fault| node.range().contains(&fault.offset))
+        of_urdf.range(node.range()).next().map(|(_, fault)| fault)
     };
     let (faulty, closing): (Vec<_>, Vec<_>) = all.partition(|one| fault_of(one).is_some());
     let checked = chains(urdf, &closing, findings);

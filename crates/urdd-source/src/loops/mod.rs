@@ -7,7 +7,7 @@
 mod said;
 mod urdf_plus;
 
-use std::ops::Range;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -18,6 +18,7 @@ use urdd_directory::limits::MAX_TOML_BYTES;
 use urdd_directory::loops_toml::{FrameTable, LoopTable};
 use urdd_directory::yaml::words;
 use urdd_format::loops::LoopKind;
+use urdd_format::short::Short;
 use urdd_xml::Xml;
 use urdd_xml::element::{Edit, apply, attribute, children};
 
@@ -29,7 +30,7 @@ use crate::settings::Settings;
 pub use said::{Retyped, Said};
 pub use urdd_directory::loops_toml::File;
 pub(super) use urdf_plus::placed_urdf_plus;
-pub use urdf_plus::{LoopFault, table, urdf_plus};
+pub use urdf_plus::{CostlyElement, LoopFault, table, urdf_plus};
 
 /// The ending of the file beside a URDF.
 const ENDING: &str = "loops.toml";
@@ -154,7 +155,11 @@ pub(super) fn read_extended(path: &Path, text: String) -> Result<Said, SourceErr
     let text = said.text.as_ref().map_or("", |(_, text)| text);
     let words =
         words::read(text).map_err(|error| refused(error.line, error.column, error.reason))?;
-    let read = Extended::deserialize(words).map_err(|error| refused(1, 1, error.to_string()))?;
+    let read =
+        Extended::deserialize(&words.value).map_err(|error| refused(1, 1, error.to_string()))?;
+    let key = |key: &str| words.key(key).map(|at| at..at);
+    let place =
+        |of: &str, number: usize| words.scalar(of, number).map(|at| at..at).or_else(|| key(of));
     let lengths = [
         ("closed_loop", read.closed_loop.len(), "type", read.types.len()),
         (
@@ -168,69 +173,59 @@ pub(super) fn read_extended(path: &Path, text: String) -> Result<Said, SourceErr
         if of_a != of_b {
             let fault =
                 format!("`{a}` and `{b}` need as many entries: there are {of_a} and {of_b}");
-            return Err(said.error(place(text, b, ""), &shown, fault));
+            return Err(said.error(key(b), &shown, fault));
         }
     }
     let mut file = File::default();
-    let link = |name: String| {
-        let at = place(text, KEY, &name).unwrap_or(0..0);
-        Spanned::new(at, name)
+    let link = |name: String, number: usize| {
+        Spanned::new(place(KEY, number).unwrap_or(0..0), name)
     };
-    for ([a, b], word) in read.closed_loop.into_iter().zip(&read.types) {
+    for (number, ([a, b], word)) in read.closed_loop.into_iter().zip(&read.types).enumerate() {
         let kind = match word.to_ascii_lowercase().as_str() {
             "6d" => LoopKind::Fixed,
             "3d" => LoopKind::Spherical,
             _ => {
                 let fault = format!("`{}` in `type` is neither 6d nor 3d", word.escape_debug());
-                return Err(said.error(place(text, "type", word), &shown, fault));
+                return Err(said.error(place("type", number), &shown, fault));
             }
         };
         let table = LoopTable {
             name: a.clone(),
             kind,
-            link_a: link(a),
+            link_a: link(a, 2 * number),
             frame_a: FrameTable::default(),
-            link_b: link(b),
+            link_b: link(b, 2 * number + 1),
             frame_b: FrameTable::default(),
         };
         file.loops.push(Spanned::new(table.link_a.span(), table));
     }
     file.independent = read.name_mot.map(|names| names.into_iter().map(unplaced).collect());
     let mut retyped = Vec::new();
-    let words = read.joint_type.unwrap_or_default();
-    for (joint, word) in read.joint_name.unwrap_or_default().into_iter().zip(words) {
+    let kinds = read.joint_type.unwrap_or_default();
+    let joints = read.joint_name.unwrap_or_default().into_iter().zip(kinds).enumerate();
+    let mut known: HashMap<String, Retyped> = HashMap::new();
+    for (number, (joint, word)) in joints {
         let Some(kind) = Retyped::of(&word) else {
-            let at = place(text, "joint_type", &word);
+            let at = place("joint_type", number);
             let (word, joint) = (word.escape_debug(), joint.escape_debug());
             let fault = format!(
                 "the joint `{joint}` is to be `{word}`: there are SPHERICAL, FIXED, and UJOINT_ with two of X, Y and Z"
             );
             return Err(said.error(at, &shown, fault));
         };
-        retyped.push((joint, kind));
+        match known.insert(joint.clone(), kind) {
+            None => retyped.push((joint, kind)),
+            Some(other) if other == kind => {}
+            Some(_) => {
+                let joint = Short::of(&joint);
+                let fault = format!(
+                    "the joint `{joint}` is named twice, and is to be two different joints: name it once"
+                );
+                return Err(said.error(place("joint_name", number), &shown, fault));
+            }
+        }
     }
     Ok(Said { file, retyped, ..said })
-}
-
-/// Where the text has a word after a key, or the key, if it does not have the word as it is.
-fn place(text: &str, key: &str, word: &str) -> Option<Range<usize>> {
-    let is_key = |line: &str| line.strip_prefix(key).is_some_and(|rest| rest.starts_with(':'));
-    let mut begin = 0;
-    for line in text.split_inclusive('\n') {
-        if is_key(line) {
-            break;
-        }
-        begin += line.len();
-    }
-    let after = text.get(begin + key.len()..).filter(|_| begin < text.len())?;
-    let is_part = |of: Option<char>| of.is_some_and(|of| of.is_alphanumeric() || of == '_');
-    let mut found = after.match_indices(word).filter(|(at, _)| {
-        !word.is_empty()
-            && !is_part(after[..*at].chars().next_back())
-            && !is_part(after[at + word.len()..].chars().next())
-    });
-    let at = found.next().map_or(begin, |(at, _)| begin + key.len() + at);
-    Some(at..at)
 }
 
 impl Retyped {
@@ -260,12 +255,15 @@ fn unit(axis: char) -> &'static str {
 pub fn retyped(xml: &Xml<'_>, joints: &[(String, Retyped)]) -> (String, Vec<String>) {
     let Ok(document) = xml.document() else { return (xml.text().to_owned(), Vec::new()) };
     let mut edits: Vec<Edit> = Vec::new();
+    let mut named = HashMap::new();
+    for (_, element) in children(document.root_element()).filter(|(word, _)| *word == "joint") {
+        if let Some(name) = attribute(element, "name") {
+            named.entry(name.value()).or_insert(element);
+        }
+    }
     let mut missing = Vec::new();
     for (name, kind) in joints {
-        let mut elements = children(document.root_element());
-        let is_it = |element| attribute(element, "name").is_some_and(|of| of.value() == name);
-        let joint = elements.find(|(word, element)| *word == "joint" && is_it(*element));
-        let Some((_, joint)) = joint else {
+        let Some(joint) = named.get(name.as_str()).copied() else {
             missing.push(name.clone());
             continue;
         };

@@ -1,5 +1,6 @@
 //! What a file says of loops.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use urdd_directory::loops_toml::File;
@@ -17,7 +18,7 @@ pub struct Said {
     /// Joints that the source itself says move freely, where others move freely because it says nothing of them, by name.
     pub first: Vec<String>,
     /// Where the elements of the URDF are in the user's files, by their byte offset. Empty if another file says it.
-    pub places: Vec<(usize, SourcePlace)>,
+    pub places: HashMap<usize, SourcePlace>,
     /// Joints that have another type than the URDF says, by name.
     pub retyped: Vec<(String, Retyped)>,
     /// The file, as it is shown, and its text. `None` if the URDF itself says it.
@@ -58,7 +59,7 @@ impl Said {
 
     /// Where an element of the URDF is, if the URDF says it.
     pub fn place(&self, offset: usize) -> Option<&SourcePlace> {
-        self.places.iter().find(|(of, _)| *of == offset).map(|(_, place)| place)
+        self.places.get(&offset)
     }
 
     /// The error about a place of the file, if it is known.

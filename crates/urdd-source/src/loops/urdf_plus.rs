@@ -4,9 +4,11 @@
 //! says that the joints down to its successor move `ratio` times as far as those down to its predecessor.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::sync::Arc;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use toml::Spanned;
+use urdd_directory::account::{Account, AccountError};
 use urdd_directory::export_toml::unplaced;
 use urdd_directory::loops_toml::{CouplingTable, FrameTable, LoopTable, kind_of};
 use urdd_format::loops::LoopKind;
@@ -29,13 +31,30 @@ pub struct LoopFault {
     pub assumed: String,
 }
 
+/// More would be made of an element than the account has.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CostlyElement {
+    /// Where it begins, byte offset.
+    pub offset: usize,
+    /// Why.
+    pub error: AccountError,
+}
+
+/// Charged for a joint between two links of a coupling: what is made of the term, here and in all that reads it.
+const TERM: usize = 400;
+/// The same, for each byte of its name.
+const LETTER: usize = 4;
+/// Charged for a joint above a link of a coupling, which is looked up.
+const STEP: usize = 10;
+
 /// As [`urdf_plus`], with the places of its elements, and a note about each that is left out.
 pub fn placed_urdf_plus(
     robot: Node<'_, '_>,
     places_of: impl FnOnce(Vec<usize>) -> Vec<SourcePlace>,
     notes: &mut Vec<Note>,
-) -> Option<Said> {
-    let (mut said, faults) = urdf_plus(robot)?;
+    account: &Account,
+) -> Result<Option<Said>, CostlyElement> {
+    let Some((mut said, faults)) = urdf_plus(robot, account)? else { return Ok(None) };
     let of_faults = faults.iter().map(|fault| fault.offset);
     let offsets: Vec<usize> = said.offsets().chain(of_faults).collect();
     let mut places = places_of(offsets.clone());
@@ -47,18 +66,24 @@ pub fn placed_urdf_plus(
             .zip(of_faults)
             .map(|(fault, place)| Note::at(place, NoteKind::LeftOut, fault.fault, fault.assumed)),
     );
-    Some(said)
+    Ok(Some(said))
 }
 
 /// The loops and couplings of a URDF, whose `<robot>` is given, and each element that is not as URDF+ has it; `None` if it has no such elements.
-pub fn urdf_plus(robot: Node<'_, '_>) -> Option<(Said, Vec<LoopFault>)> {
+///
+/// # Errors
+/// If couplings have more joints together than the account allows.
+pub fn urdf_plus(
+    robot: Node<'_, '_>,
+    account: &Account,
+) -> Result<Option<(Said, Vec<LoopFault>)>, CostlyElement> {
     let elements = || children(robot);
     if !elements().any(|(name, _)| matches!(name, "loop" | "coupling")) {
-        return None;
+        return Ok(None);
     }
     let mut said = Said::default();
     let mut faults = Vec::new();
-    let mut joints: HashMap<&str, (&str, &str)> = HashMap::new();
+    let mut joints: HashMap<&str, (Arc<str>, &str)> = HashMap::new();
     let mut independent = Vec::new();
     let mut says_independent = false;
     for (_, joint) in elements().filter(|(name, _)| *name == "joint") {
@@ -68,7 +93,7 @@ pub fn urdf_plus(robot: Node<'_, '_>) -> Option<(Said, Vec<LoopFault>)> {
         else {
             continue;
         };
-        joints.insert(child.value(), (name.value(), parent.value()));
+        joints.insert(child.value(), (name.value().into(), parent.value()));
         let word = attribute(joint, "independent");
         match word.map(|word| word.value().trim().to_ascii_lowercase()).as_deref() {
             Some("true") => {
@@ -100,8 +125,16 @@ pub fn urdf_plus(robot: Node<'_, '_>) -> Option<(Said, Vec<LoopFault>)> {
         let place = element.range();
         let read = match name {
             "loop" => of_loop(element).map(|one| said.file.loops.push(Spanned::new(place, one))),
-            "coupling" => of_coupling(element, &tree)
-                .map(|one| said.file.couplings.push(Spanned::new(place, one))),
+            "coupling" => match of_coupling(element, &tree, account) {
+                Ok(one) => {
+                    said.file.couplings.push(Spanned::new(place, one));
+                    Ok(())
+                }
+                Err(Refused::Fault(fault)) => Err(fault),
+                Err(Refused::Costly(error)) => {
+                    return Err(CostlyElement { offset: place.start, error });
+                }
+            },
             _ => continue,
         };
         if let Err(fault) = read {
@@ -113,13 +146,30 @@ pub fn urdf_plus(robot: Node<'_, '_>) -> Option<(Said, Vec<LoopFault>)> {
             });
         }
     }
-    Some((said, faults))
+    Ok(Some((said, faults)))
 }
 
 struct Tree<'a> {
     links: HashSet<&'a str>,
     /// For each child, its joint and parent.
-    joints: HashMap<&'a str, (&'a str, &'a str)>,
+    joints: HashMap<&'a str, (Arc<str>, &'a str)>,
+}
+
+enum Refused {
+    Fault(LoopFault),
+    Costly(AccountError),
+}
+
+impl From<LoopFault> for Refused {
+    fn from(fault: LoopFault) -> Self {
+        Refused::Fault(fault)
+    }
+}
+
+impl From<AccountError> for Refused {
+    fn from(error: AccountError) -> Self {
+        Refused::Costly(error)
+    }
 }
 
 fn fault(offset: usize, fault: impl Into<String>) -> LoopFault {
@@ -196,39 +246,53 @@ pub fn table(pose: &Isometry3<f64>) -> FrameTable {
 }
 
 /// `ratio` times the joints down to the predecessor, less those down to the successor.
-fn of_coupling(element: Node<'_, '_>, tree: &Tree<'_>) -> Result<CouplingTable, LoopFault> {
+fn of_coupling(
+    element: Node<'_, '_>,
+    tree: &Tree<'_>,
+    account: &Account,
+) -> Result<CouplingTable, Refused> {
     let (a, b) = (child(element, "predecessor")?, child(element, "successor")?);
     let ratio = child(element, "ratio")?;
     let value = text(ratio, "value")?.trim().parse::<f64>().ok().filter(|ratio| ratio.is_finite());
     let value =
         value.ok_or_else(|| fault(ratio.range().start, "the ratio is not a finite number"))?;
-    let path = |end: Node<'_, '_>| -> Result<Vec<String>, LoopFault> {
-        let mut at = text(end, "link")?;
-        if !tree.links.contains(at.as_str()) {
-            let unknown = format!("there is no link `{}`", Short::of(&at));
-            return Err(fault(end.range().start, unknown));
+    let path = |end: Node<'_, '_>| -> Result<Vec<&Arc<str>>, Refused> {
+        let named = text(end, "link")?;
+        let mut at = named.as_str();
+        if !tree.links.contains(at) {
+            let unknown = format!("there is no link `{}`", Short::of(at));
+            return Err(fault(end.range().start, unknown).into());
         }
         let mut path = Vec::new();
-        while let Some((joint, parent)) = tree.joints.get(at.as_str())
+        while let Some((joint, parent)) = tree.joints.get(at)
             && path.len() <= tree.joints.len()
         {
-            path.push((*joint).to_owned());
-            at = (*parent).to_owned();
+            account.charge(STEP + at.len())?;
+            path.push(joint);
+            at = parent;
         }
         Ok(path)
     };
     let (mut to_a, mut to_b) = (path(a)?, path(b)?);
-    while to_a.last().is_some_and(|last| to_b.last() == Some(last)) {
+    let is_same = |a: &Arc<str>, b: &Arc<str>| Arc::ptr_eq(a, b) || a == b;
+    while let (Some(last), Some(other)) = (to_a.last(), to_b.last())
+        && is_same(last, other)
+    {
         to_a.pop();
         to_b.pop();
     }
     let mut terms = BTreeMap::new();
-    terms.extend(to_a.into_iter().map(|joint| (unplaced(joint), vec![value])));
-    terms.extend(to_b.into_iter().map(|joint| (unplaced(joint), vec![-1.0])));
+    for (joints, coefficient) in [(to_a, value), (to_b, -1.0)] {
+        let coefficients: Arc<[f64]> = [coefficient].into();
+        for joint in joints {
+            account.charge(TERM + LETTER * joint.len())?;
+            terms.insert(unplaced(Arc::clone(joint)), Arc::clone(&coefficients));
+        }
+    }
     let name = text(element, "name")?;
     if terms.is_empty() {
         let none = "no joint is between the two links of this coupling";
-        return Err(fault(element.range().start, none));
+        return Err(fault(element.range().start, none).into());
     }
     Ok(CouplingTable { name, constant: 0.0, terms })
 }

@@ -1,13 +1,14 @@
 //! How far spheres are from pieces, compared with closed forms.
 
 use crate::cuboid;
+use urdd_directory::account::{Account, AccountError};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::link_shapes_spheres::SphereFit;
 use urdd_spheres::model::Sphere;
 use urdd_spheres::surface::Pieces;
 
 fn fit(pieces: &Pieces, spheres: &[Sphere]) -> SphereFit {
-    pieces.fit(spheres, &Cancellation::default()).expect("not cancelled")
+    pieces.fit(spheres, &Account::default()).expect("within the account")
 }
 
 #[test]
@@ -71,5 +72,30 @@ fn very_many_spheres_end_where_it_is_cancelled() {
     let cancellation = Cancellation::default();
     cancellation.cancel();
     let spheres = vec![Sphere { centre: [0.0; 3], radius: 1.0 }; 65_536];
-    assert!(pieces.fit(&spheres, &cancellation).is_err());
+    let found = pieces.fit(&spheres, &Account::new(&cancellation));
+    assert!(matches!(found, Err(AccountError::Cancelled(_))));
+}
+
+/// Each point of each of them is compared with all others: 64 times the square of their number.
+#[test]
+fn spheres_around_the_same_points_are_charged_and_equal_ones_are_looked_at_once() {
+    let pieces = Pieces::new(&[cuboid([-1.0; 3], [1.0; 3])]).expect("pieces");
+    let one = Sphere { centre: [0.0; 3], radius: 1.0 };
+    let two = fit(&pieces, &[one]);
+    let many = fit(&pieces, &vec![one; 20_000]);
+    assert_eq!(many.max_standoff, two.max_standoff);
+    assert_eq!(many.max_uncovered, two.max_uncovered);
+    assert!((many.mean_standoff - two.mean_standoff).abs() < 1e-9);
+    // So little aside of each other that none holds a point of another.
+    let aside = |k: u32| Sphere { centre: [1e-11 * f64::from(k), 0.0, 0.0], radius: 1.0 };
+    let near: Vec<Sphere> = (0..5000).map(aside).collect();
+    let found = pieces.fit(&near, &Account::default());
+    assert!(matches!(found, Err(AccountError::Overdrawn(_))), "{found:?}");
+    // As many as people have are no cost: of a point, few are looked at.
+    let spread = |k: u32| {
+        let [x, y, z] = [k % 20, k / 20 % 20, k / 400].map(|k| f64::from(k) / 10.0 - 1.0);
+        Sphere { centre: [x, y, z], radius: 0.08 }
+    };
+    let spread: Vec<Sphere> = (0..8000).map(spread).collect();
+    fit(&pieces, &spread);
 }

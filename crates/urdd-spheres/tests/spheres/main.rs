@@ -9,6 +9,7 @@ mod figures;
 mod judge;
 mod levels;
 mod surface;
+mod tree;
 
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;

@@ -125,11 +125,19 @@ impl Held {
         if poses > MOST_WORK || values.saturating_mul(4) > MOST_WORK {
             return None;
         }
-        // What the row of each coupling is divided by.
-        let of_row = |coupling| steepest(coupling, configuration, lengths, reach);
-        let steepest: Option<Vec<f64>> = module.couplings.iter().map(of_row).collect();
-        let divisor = |largest: f64| if largest > 0.0 { largest } else { 1.0 };
-        let steepest: Vec<f64> = steepest?.into_iter().map(divisor).collect();
+        let mut slopes = vec![Vec::new(); dofs];
+        for (place, coupling) in module.couplings.iter().enumerate() {
+            // What the row is divided by.
+            let largest = steepest(coupling, configuration, lengths, reach)?;
+            let largest = if largest > 0.0 { largest } else { 1.0 };
+            for term in &coupling.terms {
+                let dof = term.dof_idx.get();
+                let [a, b, c, d] = term.coefficients;
+                let q = *configuration.get(dof)?;
+                let slope = a + 2.0 * b * q + 3.0 * c * q * q + 4.0 * d * q * q * q;
+                slopes.get_mut(dof)?.push((place, slope, largest));
+            }
+        }
         let mut columns = Vec::new();
         let mut moving = Vec::new();
         for dof in 0..dofs {
@@ -145,8 +153,10 @@ impl Held {
                 let [before, after] = [between(one, &ends[0])?, between(one, &ends[1])?];
                 column.extend(rows_of(one.kind, &before, &after, reach));
             }
-            for (coupling, largest) in module.couplings.iter().zip(&steepest) {
-                column.push(slope(coupling, dof, *configuration.get(dof)?) * unit / largest);
+            let first = column.len();
+            column.resize(rows, 0.0);
+            for (place, slope, largest) in &slopes[dof] {
+                column[first + place] += slope * unit / largest;
             }
             // Of what does not move, rounding alone is left.
             if column.iter().any(|value| value.abs() > 1e-10) {
@@ -236,13 +246,3 @@ fn steepest(
     Some(largest)
 }
 
-/// The derivative of a coupling's sum with respect to a DOF at q.
-fn slope(coupling: &Coupling, dof: usize, q: f64) -> f64 {
-    let of_dof = coupling.terms.iter().filter(|term| term.dof_idx.get() == dof);
-    of_dof
-        .map(|term| {
-            let [a, b, c, d] = term.coefficients;
-            a + 2.0 * b * q + 3.0 * c * q * q + 4.0 * d * q * q * q
-        })
-        .sum()
-}

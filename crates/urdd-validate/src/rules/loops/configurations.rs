@@ -1,9 +1,11 @@
+use std::cell::LazyCell;
 use std::f64::consts::PI;
 
 use crate::reference::loops::{Gap, sum};
 use crate::rules::kinematics::samples::{pick, turn_alike};
 use crate::rules::prelude::*;
 use urdd_format::loops::LoopsModule;
+use urdd_format::short::Short;
 use urdd_kinematics::{ConfigurationError, ConfigurationSpace, ForwardKinematics};
 
 /// Most loops, couplings and links that are looked at, over all configurations.
@@ -189,7 +191,9 @@ fn loop_open(context: &Context, findings: &mut Findings) -> Option<()> {
     let kinematics = ForwardKinematics::new(document!(context, Chain)?, document!(context, Dof)?);
     let kinematics = findings.or_skip(kinematics.map_err(SkipReason::obstacle))?;
     let reach = reach(context.robot()?, context.tree()?);
-    let of_one = loops.loops.len() + loops.couplings.len() + kinematics.num_links();
+    let terms: usize = loops.couplings.iter().map(|one| 1 + one.terms.len()).sum();
+    let of_one = loops.loops.len() + terms + kinematics.num_links();
+    let held = LazyCell::new(|| held(context));
     let most = (MOST_LOOKED_AT / of_one.max(1)).max(2);
     for (looked_at, (pointer, configuration)) in configurations(loops).enumerate() {
         if looked_at >= most {
@@ -201,7 +205,7 @@ fn loop_open(context: &Context, findings: &mut Findings) -> Option<()> {
             };
         }
         let poses = match kinematics.link_poses(configuration) {
-            Err(ConfigurationError::Overflow { link_idx }) if holds(context, link_idx)? => {
+            Err(ConfigurationError::Overflow { link_idx }) if *held.as_ref()?.get(link_idx)? => {
                 let message = format!(
                     "a loop holds link {link_idx} or one below it, whose pose here is beyond the range of 64-bit numbers"
                 );
@@ -218,7 +222,7 @@ fn loop_open(context: &Context, findings: &mut Findings) -> Option<()> {
             }
             let message = format!(
                 "the loop `{}` (/loops/{place}) is open here: its ends are {} m and {} rad from where it holds them",
-                one.name,
+                Short::of(&one.name),
                 number(gap.position, 4),
                 number(gap.rotation, 4)
             );
@@ -237,7 +241,7 @@ fn loop_open(context: &Context, findings: &mut Findings) -> Option<()> {
                 continue;
             }
             let message =
-                format!("the coupling `{}` (/couplings/{place}) does not hold here", coupling.name);
+                format!("the coupling `{}` (/couplings/{place}) does not hold here", Short::of(&coupling.name));
             finding_in(Kind::Loops, pointer.clone(), message)
                 .values("a sum of 0", format!("{sum:?}"))
                 .tolerance(tolerance)
@@ -247,12 +251,21 @@ fn loop_open(context: &Context, findings: &mut Findings) -> Option<()> {
     Some(())
 }
 
-/// Whether an end of a loop is this link, or hangs from it.
-fn holds(context: &Context, link: usize) -> Option<bool> {
+/// Of each link, whether an end of a loop is it, or hangs from it.
+fn held(context: &Context) -> Option<Vec<bool>> {
     let tree = context.tree()?;
     let loops = document!(context, Loops)?;
-    let mut ends = loops.loops.iter().flat_map(|one| [one.link_a_idx.get(), one.link_b_idx.get()]);
-    Some(ends.any(|end| tree.path(end).contains(&link)))
+    let mut held = vec![false; tree.parent_link.len()];
+    for end in loops.loops.iter().flat_map(|one| [one.link_a_idx.get(), one.link_b_idx.get()]) {
+        let mut at = Some(end);
+        while let Some(link) = at
+            && let Some(is_held) = held.get_mut(link)
+            && !std::mem::replace(is_held, true)
+        {
+            at = tree.parent_link[link];
+        }
+    }
+    Some(held)
 }
 
 fn mobility_wrong(context: &Context, findings: &mut Findings) -> Option<()> {
