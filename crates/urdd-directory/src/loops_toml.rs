@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use toml::Spanned;
 use urdd_format::loops::LoopKind;
 use urdd_format::short::Short;
@@ -55,8 +55,11 @@ pub struct CouplingTable {
     pub constant: f64,
     /// For each DOF, by name, up to four coefficients: of its position, its square, and so on. Names and coefficients that
     /// many couplings have are shared.
-    pub terms: BTreeMap<Spanned<Arc<str>>, Arc<[f64]>>,
+    #[serde(deserialize_with = "terms", serialize_with = "write_terms")]
+    pub terms: Terms,
 }
+
+type Terms = BTreeMap<Spanned<Arc<str>>, Arc<[f64]>>;
 
 impl File {
     /// Whether it says nothing.
@@ -88,4 +91,15 @@ pub fn kind_of(word: &str) -> Result<LoopKind, String> {
 
 fn kind<'de, D: Deserializer<'de>>(reader: D) -> Result<LoopKind, D::Error> {
     kind_of(&String::deserialize(reader)?).map_err(serde::de::Error::custom)
+}
+
+fn terms<'de, D: Deserializer<'de>>(reader: D) -> Result<Terms, D::Error> {
+    let terms = BTreeMap::<Name, Vec<f64>>::deserialize(reader)?.into_iter();
+    Ok(terms
+        .map(|(name, of)| (Spanned::new(name.span(), name.into_inner().into()), of.into()))
+        .collect())
+}
+
+fn write_terms<S: Serializer>(terms: &Terms, writer: S) -> Result<S::Ok, S::Error> {
+    writer.collect_map(terms.iter().map(|(name, of)| (&**name.get_ref(), &**of)))
 }
