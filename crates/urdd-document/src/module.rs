@@ -330,7 +330,10 @@ impl CarriedUrdf {
         if size > MAX_URDF_BYTES {
             return Err(ReadError::TooLarge { size, limit: MAX_URDF_BYTES });
         }
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        // A second mark is a character before the root; the parser passes over one mark itself.
+        let mark = b"\xef\xbb\xbf";
+        let rest = bytes.strip_prefix(mark).filter(|rest| !rest.starts_with(mark));
+        let bytes = rest.unwrap_or(bytes);
         let not_utf8_at = std::str::from_utf8(bytes).err().map(|error| error.valid_up_to());
         Ok(CarriedUrdf {
             path: path.to_owned(),
