@@ -14,6 +14,7 @@ from .faces import (
     Affine,
     Face,
     NotMesh,
+    Shown,
     Vertex,
     count_triangles,
     then,
@@ -69,13 +70,11 @@ def words(element: Element) -> list[str]:
 
 
 def floats(element: Element, count: int) -> list[float]:
-    """The numbers of a transform."""
-    values = [number(word) for word in words(element)]
-    if len(values) != count or not all(
-        value is not None and math.isfinite(value) for value in values
-    ):
+    """The numbers of a transform: none of them finite where one is not."""
+    values = [value for value in map(number, words(element)) if value is not None]
+    if len(values) != count or len(words(element)) != count:
         raise NotMesh
-    return values  # type: ignore[return-value]
+    return values if all(map(math.isfinite, values)) else [math.nan] * count
 
 
 def target(element: Element, key: str) -> str:
@@ -102,7 +101,7 @@ class ColladaReader:
                 self.by_id.setdefault(element.attributes["id"], element)
         self.visits = 0
         self.triangles = 0
-        self.faces: list[Face] = []
+        self.faces = Shown()
         self.meshes: dict[int, list[Face]] = {}
 
     def named(self, element: Element, key: str, kind: str) -> Element | None:
@@ -112,7 +111,7 @@ class ColladaReader:
     def in_libraries(self, library: str, kind: str) -> list[Element]:
         return [one for found in self.root.all(library) for one in found.all(kind)]
 
-    def show(self) -> list[Face]:
+    def show(self) -> Shown:
         asset = self.root.first("asset")
         meter = asset and asset.first("unit")
         value = number(meter.attributes.get("meter", "").strip()) if meter else None
@@ -139,6 +138,7 @@ class ColladaReader:
         here = above
         for child in node.children:
             here = then(here, transform(child))
+        self.look_at_place(here)
         within = (*inside, id(node))
         for child in node.children:
             if child.name == "node":
@@ -154,6 +154,10 @@ class ColladaReader:
             elif child.name == "instance_controller":
                 self.controller(self.named(child, "url", "controller"), here, ())
 
+    def look_at_place(self, place: Affine) -> None:
+        if not all(math.isfinite(part) for row in place for part in row):
+            self.faces.may_be_refused = True
+
     def controller(
         self, controller: Element | None, place: Affine, inside: tuple[int, ...]
     ) -> None:
@@ -164,6 +168,7 @@ class ColladaReader:
         bind = inner.first("bind_shape_matrix")
         if bind:
             place = then(place, matrix(floats(bind, 16)))
+            self.look_at_place(place)
         geometry = self.named(inner, "source", "geometry")
         if geometry:
             self.geometry(geometry, place)
@@ -231,6 +236,8 @@ class ColladaReader:
         except (AttributeError, LookupError, ValueError) as fault:
             raise NotMesh from fault
         places = component_places(accessor, stride)  # type: ignore[arg-type]
+        if stride > len(places):
+            self.faces.may_be_refused = True
         numbers = [number(word) for word in array]
         found: list[Vertex] = []
         for start in range(offset, len(numbers) - stride + 1, stride):
@@ -345,6 +352,6 @@ def parse_collada(data: bytes) -> Element:
     return builder.root  # type: ignore[return-value]
 
 
-def read_collada(data: bytes) -> list[Face]:
+def read_collada(data: bytes) -> Shown:
     root = parse_collada(data)
-    return ColladaReader(root).show() if root.name == "COLLADA" else []
+    return ColladaReader(root).show() if root.name == "COLLADA" else Shown()

@@ -25,6 +25,12 @@ class Face:
     place: Affine = UNPLACED
 
 
+class Shown(list[Face]):
+    """The faces of a file; 7.5 leaves to the URDD whether some files are meshes."""
+
+    may_be_refused = False
+
+
 def count_triangles(faces: list[Face]) -> int:
     """7.5: each face is a fan, and nothing where it has fewer than three corners."""
     return sum(len(face.corners[2:]) for face in faces)

@@ -120,7 +120,8 @@ def holds(coupling: dict[str, Any], q: list[float]) -> bool:
         power = 1.0
         for coefficient in term["coefficients"]:
             power *= q[term["dof_idx"]]
-            summands.append(float(coefficient) * power)
+            if coefficient:
+                summands.append(float(coefficient) * power)
     total, size = sum(summands), sum(abs(one) for one in summands)
     return finite([size]) and abs(total) <= max(RELATIVE * size, ABSOLUTE)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 from urllib.parse import unquote
 
-from .faces import Face, NotMesh
+from .faces import Face, NotMesh, Shown
 from .mesh import format_of, is_usable, read_alone, read_mesh
 from .modules import Urdd, file_of
 from .sidefiles import normal, side_files
@@ -69,6 +69,8 @@ def check_file(urdd: Urdd, place: int, file: Any) -> None:
         faces: list[Face] | None = read_original(urdd, file["path"])
     except NotMesh:
         faces = None
+    if isinstance(faces, Shown) and faces.may_be_refused and not file["usable"]:
+        return
     if file["usable"] != (faces is not None and is_usable(faces)):
         urdd.report.error("MSH016", FILE, pointer + "/usable")
     if faces is not None and file["side_files"] != side_files(urdd.tree, file["path"]):

@@ -35,8 +35,10 @@ class Shape:
             "Sphere": 4 * math.pi * self.radius**2,
         }
         self.area = areas[self.kind]
-        reach = self.half_length + (self.radius if self.kind == "Capsule" else 0.0)
-        self.extent = norm(self.position) + max(*self.half, self.radius, reach)
+        around = math.hypot(*self.half, self.half_length, self.radius)
+        if self.kind == "Capsule":
+            around = self.half_length + self.radius
+        self.extent = norm(self.position) + around
 
     def has(self, triangle: Triangle, tolerance: float) -> bool:
         """7.8: corners on the surface, facing outward, and not too far inside."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
+import re
 import struct
 from typing import Any
 
@@ -31,7 +32,7 @@ from .mesh import HEADER, RECORD, read_obj
 from .numeric import distance, norm
 
 NORMAL_TOLERANCE = 1e-3  # 7.6
-EXTENSIONS = ("KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "KHR_materials_")
+EXTENSIONS = re.compile(r"[A-Za-z0-9]+_(?:texture|lights|materials)_")
 INSTANCES = "EXT_mesh_gpu_instancing"
 
 
@@ -116,7 +117,7 @@ def check_document(document: Any) -> None:
     for entry in [*document.get("images", []), *document.get("buffers", [])]:
         require(entry.get("uri", "data:").startswith("data:"))
     for name in document.get("extensionsRequired", []):
-        require(name == "KHR_mesh_quantization" or name.startswith(EXTENSIONS))
+        require(name == "KHR_mesh_quantization" or EXTENSIONS.match(name))
 
 
 def check_node(reader: GltfReader, place: Any) -> list[Any]:

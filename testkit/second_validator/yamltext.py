@@ -299,5 +299,5 @@ def same(a: Any, b: Any) -> bool:
         return len(a) == len(b) and all(same(x, y) for x, y in zip(a, b))
     numbers = (int, float)
     if isinstance(a, bool) or isinstance(b, bool) or not isinstance(a, numbers):
-        return type(a) is type(b) and a == b
+        return isinstance(a, bool) == isinstance(b, bool) and a == b
     return isinstance(b, numbers) and float(a) == float(b)

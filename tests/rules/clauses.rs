@@ -1,6 +1,8 @@
 //! `conformance/clauses/`: for each statement of SPEC.md (a sentence, a row of a table) the cases that decide it, or why none
 //! can. `URDD_UPDATE=1` adds lines for statements that have none, as `open`, and takes away those of statements that are gone.
 
+mod since;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::fs;
@@ -20,6 +22,7 @@ const OPEN: &str = "open";
 struct Statement {
     clause: String,
     text: String,
+    is_row: bool,
 }
 
 /// The statements of clauses 2 to 13, in order.
@@ -72,7 +75,7 @@ fn statements(spec: &str) -> Vec<Statement> {
             // Without the number, which may have a title: `**5.1 Units.** Metres`.
             None => line.trim().trim_start_matches(&format!("**{clause}** ")).to_owned(),
         };
-        found.push(Statement { clause: clause.clone(), text });
+        found.push(Statement { clause: clause.clone(), text, is_row: line.starts_with('|') });
     }
     found
 }

@@ -57,6 +57,10 @@ const TESTS: &[(&str, &str)] = &[
         "see the message; list the rule in crates/urdd-lint/src/rules/mod.rs",
     ),
     (
+        "clauses::since",
+        "say in tests/rules/clauses/changes.txt what the sentence asks since 1.0.0; URDD_UPDATE=1 cargo test --test rules clauses adds the line",
+    ),
+    (
         "clauses::",
         "say in conformance/clauses which cases decide the statement, or why none can; URDD_UPDATE=1 cargo test --test rules clauses adds the line",
     ),

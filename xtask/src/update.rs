@@ -18,6 +18,7 @@ const GENERATED: &[&str] = &[
     "python/lib/urdd",
     "schema",
     "tests/program",
+    "tests/rules/clauses",
     "wasm/npm",
     "cpp/include/urdd_types.hpp",
 ];

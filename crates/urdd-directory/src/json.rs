@@ -260,7 +260,8 @@ fn offset_of(text: &str, line: usize, column: usize) -> usize {
 /// The run of number and word characters around an offset, and its start.
 fn word_around(text: &str, offset: usize) -> (usize, &str) {
     let bytes = text.as_bytes();
-    let is_word = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'+' | b'-' | b'.');
+    let is_word =
+        |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'+' | b'-' | b'.' | b'_');
     let before = bytes[..offset].iter().rev().take_while(|&&byte| is_word(byte)).count();
     let after = bytes[offset..].iter().take_while(|&&byte| is_word(byte)).count();
     let start = offset - before;
@@ -269,7 +270,8 @@ fn word_around(text: &str, offset: usize) -> (usize, &str) {
 
 fn is_non_finite(word: &str) -> bool {
     let bare = word.trim_start_matches(['+', '-']);
-    ["nan", "inf", "infinity"].iter().any(|name| bare.eq_ignore_ascii_case(name))
+    let first = bare.split(['+', '-', '.']).next().unwrap_or_default();
+    ["nan", "inf", "infinity"].iter().any(|name| first.eq_ignore_ascii_case(name))
         || (bare.starts_with(|c: char| c.is_ascii_digit())
             && word.parse::<f64>().is_ok_and(f64::is_infinite))
 }

@@ -49,6 +49,7 @@ const SIDE_FILES: &[&str] = &[
 const NOT_SAID: &[NoteCode] = &[
     NoteCode::NoTriangles,
     NoteCode::NodeTransform,
+    NoteCode::ReadOtherwise,
     NoteCode::SideFileMissing,
     NoteCode::TurnedToZUp,
     NoteCode::UnitApplied,

@@ -81,6 +81,13 @@ fn open() -> Vec<Case> {
                 }
             });
         }),
+        near_miss(MSH013, "requires-a-texture-of-a-vendor", |f| {
+            change_gltf(f, PLAIN, |gltf| {
+                for key in ["extensionsUsed", "extensionsRequired"] {
+                    gltf[key] = json!(["MSFT_texture_dds", "ADOBE_materials_thin_transparency"]);
+                }
+            });
+        }),
         invalid(MSH013, "requires-what-nobody-knows", |f| {
             change_gltf(f, PLAIN, |gltf| {
                 for key in ["extensionsUsed", "extensionsRequired"] {

@@ -100,6 +100,13 @@ pub fn numbers() -> Vec<Number> {
             vec![there("YML008/one-hundred-and-one", "YML008/one-hundred")],
         ),
         number(
+            "yaml-key",
+            "3.2.2",
+            "within 1,024 characters",
+            ("1,024", 1024.0),
+            vec![there("YML001/key-of-more-than-1024-characters", "YML001/key-of-1024-characters")],
+        ),
+        number(
             "major-version",
             "4.1",
             "Its major number MUST be 1",

@@ -13,6 +13,7 @@ mod primitives;
 mod shapes;
 mod spec;
 mod spheres;
+mod tolerances;
 
 use std::collections::BTreeMap;
 

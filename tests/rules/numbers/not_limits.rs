@@ -4,6 +4,7 @@
 pub const NOT_LIMITS: &[(&str, &str)] = &[
     // Standards and versions.
     ("2.6", "Modules of 1.0 MUST"),
+    ("2.6", "that is of 1.0, before"),
     ("4.1", "a program that knows 1.0 reads"),
     ("4.3", "after those of 1.0, by"),
     ("6.8.9", "programs that know 1.0 alone"),
@@ -24,6 +25,7 @@ pub const NOT_LIMITS: &[(&str, &str)] = &[
     ("7.6", "binary glTF 2.0"),
     ("8.5", "python-fcl 0.7"),
     ("10.1", "module versions 0.0.x"),
+    ("12.2", "the draft 0.1.0"),
     ("10.3", "`bounds_module` 0.0.1"),
     ("10.5", "In `dof_module` 0.0.1 mimic"),
     ("10.8", "`chain_module` 0.0.1 has"),
@@ -32,6 +34,8 @@ pub const NOT_LIMITS: &[(&str, &str)] = &[
     ("3.3.1", "fulfils 3.2."),
     ("11.5", "clauses 6 to 8"),
     // How a writer may write: the canonical emission is one way of several (3.3.1).
+    ("3.1.3", "(`1.0000000000000000001` is 1)"),
+    ("3.2.3", "PyYAML before version 6"),
     ("3.2.3", "the number 31 to all"),
     ("3.3.3", "From 1e-4 up to, but not including, 1e16"),
     ("3.3.5", "longer than 1,000 characters"),

@@ -56,7 +56,7 @@ fn without_code(text: &str) -> String {
 
 /// Numerals in a text, except those that are part of a word (`U+0085`, `DOF003`, `§12`), and, where neither `%` nor
 /// `times` follows, 0, 1, 2 and numbers of clauses.
-fn numerals(text: &str, clauses: &BTreeSet<&str>) -> Vec<String> {
+pub(super) fn numerals(text: &str, clauses: &BTreeSet<&str>) -> Vec<String> {
     let mut found = Vec::new();
     let words = text.split(|c: char| c.is_whitespace() || "()[]{}|;:/\"*".contains(c));
     let mut words = words.filter(|word| !word.is_empty()).peekable();
@@ -122,7 +122,8 @@ fn every_number_of_spec_is_in_the_list() {
     let ids: BTreeSet<&str> = clauses.keys().map(String::as_str).collect();
     let mut missing = Vec::new();
     let mut used = BTreeSet::new();
-    for (id, text) in &clauses {
+    // 5.12 repeats those of other clauses: `tolerances.rs`.
+    for (id, text) in clauses.iter().filter(|(id, _)| *id != "5.12") {
         let mut text = text.clone();
         let own = list();
         let own = own.iter().filter(|number| number.clause == id);

@@ -119,15 +119,24 @@ pub fn collada_rows() -> Vec<Row> {
         ),
         row("collada-of-a-list-of-polygons", "part.dae", polylist("3"), true),
         row("collada-of-counts-that-are-no-whole-numbers", "part.dae", polylist("x 1.5 3"), true),
+        Row {
+            free: true,
+            ..row(
+                "collada-moved-without-end-beside-another-node",
+                "part.dae",
+                collada(&format!(
+                    "{}{scene}",
+                    nodes(
+                        r##"<node><translate>inf 0 0</translate></node><node><instance_geometry url="#g"/></node>"##
+                    )
+                )),
+                true,
+            )
+        },
         row(
-            "collada-moved-without-end-beside-another-node",
+            "collada-moved-without-end",
             "part.dae",
-            collada(&format!(
-                "{}{scene}",
-                nodes(
-                    r##"<node><translate>inf 0 0</translate></node><node><instance_geometry url="#g"/></node>"##
-                )
-            )),
+            placed("<translate>1e999 0 0</translate>"),
             false,
         ),
         row("collada-of-an-offset-of-1023", "part.dae", far(1023), true),
@@ -227,12 +236,22 @@ pub fn collada_rows() -> Vec<Row> {
             true,
         ),
         row("collada-without-an-offset", "part.dae", changed(r#" offset="0""#, ""), true),
+        Row {
+            free: true,
+            ..row(
+                "collada-of-four-numbers-each",
+                "part.dae",
+                changed(r#"stride="3""#, r#"stride="4""#)
+                    .replace("0 0 0 1 0 0 0 1 0", "0 0 0 9 1 0 0 9 0 1 0 9"),
+                true,
+            )
+        },
         row(
-            "collada-of-four-numbers-each",
+            "collada-of-four-numbers-each-without-an-area",
             "part.dae",
             changed(r#"stride="3""#, r#"stride="4""#)
-                .replace("0 0 0 1 0 0 0 1 0", "0 0 0 9 1 0 0 9 0 1 0 9"),
-            true,
+                .replace("0 0 0 1 0 0 0 1 0", "0 0 0 9 1 0 0 9 2 0 0 9"),
+            false,
         ),
         row(
             "collada-that-counts-more-positions",

@@ -9,7 +9,7 @@ use serde_json::Value;
 use super::open::{
     self, Forced, Mapping, Member, Node, Open, Shape, Target, apply_tag, pointer, tag_fault,
 };
-use super::scalar::{self, DISPUTED, End, Keys, OUTDENTED, Outdents, Reading, TORN, Tabs};
+use super::scalar::{self, End, Keys, OUTDENTED, Outdents, Reading, TORN, Tabs};
 use crate::json_scan::push_segment;
 use crate::limits::DEPTH_LIMIT;
 use crate::position::{Position, TextFault, TextFaultKind, TextFaults};
@@ -94,11 +94,13 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
                         let is_empty = text.is_empty() && style == ScalarStyle::Plain;
                         let node = if is_empty { Node::Empty } else { Node::Scalar };
                         let target = self.target(tag.as_deref(), anchor, json, node, at);
-                        self.scalar(&text, style, &target, tag.is_some(), at);
+                        // Readers differ about its last line break: with or without is right (SPEC 3.2.3).
+                        let shorter = text.strip_suffix('\n').filter(|shorter| {
+                            is_disputed && json.is_some_and(|json| json == *shorter)
+                        });
+                        let text = shorter.unwrap_or(&text);
+                        self.scalar(text, style, &target, tag.is_some(), at);
                     }
-                }
-                if is_disputed {
-                    self.report(at, TextFaultKind::YamlAmbiguousScalar, DISPUTED);
                 }
             }
             Event::SequenceStart(anchor, tag) => {

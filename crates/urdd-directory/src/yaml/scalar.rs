@@ -190,10 +190,6 @@ fn same_number(text: &str, json: &Number) -> bool {
     }
 }
 
-/// Message for a scalar at the end of a file without a final line break.
-pub const DISPUTED: &str =
-    "readers disagree about the end of this text, since its last line has no line break: add one";
-
 /// The end of a text.
 pub struct End<'y> {
     text: &'y str,

@@ -278,6 +278,8 @@ pub enum NoteCode {
     SkinAsShape,
     /// Content without triangles, or content that cannot be read, was skipped.
     LeftOut,
+    /// What other readers refuse was read: whether such a file is a mesh, SPEC 7.5 leaves to the URDD.
+    ReadOtherwise,
     /// A value was missing or not understood; a default replaces it.
     Assumed,
     /// The file has no triangles.

@@ -71,7 +71,9 @@ pub fn sum(coupling: &Coupling, configuration: &[f64]) -> Option<(f64, f64)> {
     for term in &coupling.terms {
         let q = *configuration.get(term.dof_idx.get())?;
         let powers = [q, q * q, q * q * q, q * q * q * q];
-        summands.extend(term.coefficients.iter().zip(powers).map(|(c, power)| c * power));
+        // A power may overflow; with the coefficient 0 it says nothing all the same.
+        let stated = term.coefficients.iter().zip(powers).filter(|(c, _)| **c != 0.0);
+        summands.extend(stated.map(|(c, power)| c * power));
     }
     let size: f64 = summands.iter().map(|summand| summand.abs()).sum();
     Some((summands.iter().sum(), (CLOSED * size).max(LEAST_SUM)))

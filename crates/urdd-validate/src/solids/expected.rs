@@ -205,12 +205,11 @@ impl Primitive {
         depths.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The distance of its position from the link's origin, plus its largest half side, radius or half length, m
-    /// (SPEC 7.6).
+    /// The distance of its position from the link's origin, plus its radius about its middle, m (SPEC 7.6.1).
     pub fn extent(&self) -> f64 {
         let size = match self.shape {
-            Shape::Box([x, y, z]) => x.max(y).max(z),
-            Shape::Cylinder { radius, half } => radius.max(half),
+            Shape::Box(half) => Vector3::from(half).norm(),
+            Shape::Cylinder { radius, half } => radius.hypot(half),
             Shape::Capsule { radius, half } => radius + half,
             Shape::Sphere { radius } => radius,
         };

@@ -211,6 +211,8 @@ pub struct Original {
     pub mesh: Result<Mesh, MeshFault>,
     /// The existing files that it names, sorted; `None` if it cannot be read.
     pub side_files: Option<Vec<String>>,
+    /// Whether a URDD may say that it is no mesh all the same (SPEC 7.5).
+    pub may_be_refused: bool,
 }
 
 /// Reads every mesh of `original_meshes_module`, by its path as written.
@@ -256,7 +258,9 @@ fn read_one(files: &mut MeshFiles, profile: Profile, path: &str) -> Original {
     };
     let scene = match scene() {
         Ok(scene) => scene,
-        Err(fault) => return Original { mesh: Err(fault), side_files: None },
+        Err(fault) => {
+            return Original { mesh: Err(fault), side_files: None, may_be_refused: false };
+        }
     };
     let named: BTreeSet<String> = scene
         .side_files
@@ -269,5 +273,6 @@ fn read_one(files: &mut MeshFiles, profile: Profile, path: &str) -> Original {
     Original {
         mesh: if mesh.area() > 0.0 { Ok(mesh) } else { Err(nothing()) },
         side_files: Some(named.into_iter().collect()),
+        may_be_refused: scene.notes.iter().any(|note| note.code == NoteCode::ReadOtherwise),
     }
 }

@@ -85,15 +85,17 @@ pub(super) fn transform_of(node: Node<'_, '_>) -> Result<Matrix4<f64>, Failure> 
     let mut matrix = Matrix4::identity();
     for element in node.children().filter(Node::is_element) {
         let step = match element.tag_name().name() {
-            "matrix" => rows(numbers::<16>(element)?),
-            "translate" => Matrix4::new_translation(&Vector3::from(numbers::<3>(element)?)),
-            "scale" => Matrix4::new_nonuniform_scaling(&Vector3::from(numbers::<3>(element)?)),
-            "rotate" => rotation(numbers::<4>(element)?),
-            "skew" => skew(numbers::<7>(element)?),
-            "lookat" => {
-                let fault = "a `lookat` whose eye, interest and up lie on one line";
-                look_at(numbers::<9>(element)?).ok_or_else(|| Fault::malformed(fault))?
+            "matrix" => rows(element)?,
+            "translate" => step(element, |by: [f64; 3]| Ok(Matrix4::new_translation(&by.into())))?,
+            "scale" => {
+                step(element, |by: [f64; 3]| Ok(Matrix4::new_nonuniform_scaling(&by.into())))?
             }
+            "rotate" => step(element, |values| Ok(rotation(values)))?,
+            "skew" => step(element, |values| Ok(skew(values)))?,
+            "lookat" => step(element, |values| {
+                let fault = "a `lookat` whose eye, interest and up lie on one line";
+                look_at(values).ok_or_else(|| Fault::malformed(fault))
+            })?,
             _ => continue,
         };
         matrix *= step;
@@ -102,23 +104,32 @@ pub(super) fn transform_of(node: Node<'_, '_>) -> Result<Matrix4<f64>, Failure> 
 }
 
 /// A matrix from 16 numbers, row by row.
-pub(super) fn rows(values: [f64; 16]) -> Matrix4<f64> {
-    let mut matrix = Matrix4::from_row_slice(&values);
-    // The last row is 0 0 0 1 by definition; some files contain rounding errors there.
-    matrix.set_row(3, &nalgebra::RowVector4::new(0.0, 0.0, 0.0, 1.0));
-    matrix
+pub(super) fn rows(element: Node<'_, '_>) -> Result<Matrix4<f64>, Failure> {
+    step(element, |values: [f64; 16]| {
+        let mut matrix = Matrix4::from_row_slice(&values);
+        // The last row is 0 0 0 1 by definition; some files contain rounding errors there.
+        matrix.set_row(3, &nalgebra::RowVector4::new(0.0, 0.0, 0.0, 1.0));
+        Ok(matrix)
+    })
 }
 
-/// Parses exactly `N` finite numbers.
-pub(super) fn numbers<const N: usize>(element: Node<'_, '_>) -> Result<[f64; N], Failure> {
+/// The transform of exactly `N` numbers; where one of them is not finite, one that leaves nothing finite.
+fn step<const N: usize>(
+    element: Node<'_, '_>,
+    of: impl FnOnce([f64; N]) -> Result<Matrix4<f64>, Failure>,
+) -> Result<Matrix4<f64>, Failure> {
     let text = text(element);
     let mut words = Words::new(text.as_bytes());
-    let mut values = [0.0; N];
+    let mut values = [0.0_f64; N];
     for value in &mut values {
-        *value =
-            words.float().filter(|value| value.is_finite()).ok_or_else(|| wrong(element, N))?;
+        let number = words.next().and_then(|word| std::str::from_utf8(word).ok()?.parse().ok());
+        *value = number.ok_or_else(|| wrong(element, N))?;
     }
-    if words.next().is_some() { Err(wrong(element, N)) } else { Ok(values) }
+    if words.next().is_some() {
+        return Err(wrong(element, N));
+    }
+    let is_finite = values.iter().all(|value| value.is_finite());
+    if is_finite { of(values) } else { Ok(Matrix4::repeat(f64::NAN)) }
 }
 
 fn wrong(element: Node<'_, '_>, count: usize) -> Failure {

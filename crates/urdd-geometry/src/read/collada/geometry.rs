@@ -19,11 +19,14 @@ struct Positions<'a, 'd> {
     own: Document<'a>,
     sources: HashMap<&'a str, NodeId>,
     read: &'d mut Read,
+    /// Whether some have more than three numbers each.
+    wide: bool,
 }
 
 impl<'a, 'd> Positions<'a, 'd> {
     fn new(document: &'d Document<'a>, mesh: Node<'a, 'a>, read: &'d mut Read) -> Self {
-        Self { document, own: Document::new(mesh, mesh.children()), sources: HashMap::new(), read }
+        let own = Document::new(mesh, mesh.children());
+        Self { document, own, sources: HashMap::new(), read, wide: false }
     }
 
     /// The positions that an input references through a `vertices` element or a `source`, and the texture coordinates of
@@ -66,7 +69,7 @@ impl<'a, 'd> Positions<'a, 'd> {
     }
 
     fn read_source(
-        &self,
+        &mut self,
         source: Node<'a, 'a>,
         names: [&str; 3],
     ) -> Result<Vec<[f64; 3]>, Failure> {
@@ -92,6 +95,7 @@ impl<'a, 'd> Positions<'a, 'd> {
             Fault::malformed(format!("positions have {stride} numbers instead of 3"))
                 .within("source", name)
         })?;
+        self.wide |= stride > 3 && names == ["X", "Y", "Z"];
         let text = text(array);
         let mut words = Words::new(text.as_bytes());
         if words.by_ref().take(offset).count() < offset {
@@ -202,6 +206,10 @@ pub(super) fn read<'a>(
         let text = "a triangle was dropped: a vertex index is out of range, or is not an index";
         notes.add_many(NoteCode::IndexOutOfRange, text, left_out + faces.bad);
         primitives.push(Primitive { symbol: element.attribute("material"), mesh, uv });
+    }
+    if positions.wide {
+        let text = "positions have more than three numbers each: x, y and z were taken";
+        notes.add(NoteCode::ReadOtherwise, text);
     }
     Ok(primitives)
 }

@@ -10,7 +10,7 @@ use nalgebra::{Matrix4, Vector3};
 use crate::read::assembly::{Assembly, FIRST_SCENE, Material, Nesting, within};
 use crate::read::bytes::{Words, is_utf16, skip_byte_order_mark};
 use crate::read::scene::{Failure, Fault, NoteCode, Place, Texture};
-use document::{Document, child, children, file_of_image, numbers, rows, text, transform_of};
+use document::{Document, child, children, file_of_image, rows, text, transform_of};
 use geometry::{Primitive, Tools};
 use urdd_xml::{Node, NodeId};
 
@@ -172,6 +172,7 @@ impl<'a> Walker<'a, '_> {
             .sum::<usize>();
         within("bytes of nodes, counted once per instance", self.text, MAX_TEXT)?;
         let matrix = parent * transform_of(node).map_err(|failure| failure.within("node", name))?;
+        self.note_if_not_finite(&matrix);
         for element in node.children().filter(Node::is_element) {
             let url = element.attribute("url").unwrap_or("");
             match element.tag_name().name() {
@@ -212,7 +213,8 @@ impl<'a> Walker<'a, '_> {
             let is_deformer = |node: &Node| matches!(node.tag_name().name(), "skin" | "morph");
             let Some(deformer) = controller.children().find(is_deformer) else { break };
             if let Some(shape) = child(deformer, "bind_shape_matrix") {
-                matrix *= rows(numbers::<16>(shape)?);
+                matrix *= rows(shape)?;
+                self.note_if_not_finite(&matrix);
             }
             // Both `skin` and `morph` reference what they deform by `source`.
             url = deformer.attribute("source").unwrap_or("");
@@ -246,6 +248,13 @@ impl<'a> Walker<'a, '_> {
             self.assembly.add(&primitive.mesh, matrix, &material)?;
         }
         Ok(())
+    }
+
+    fn note_if_not_finite(&mut self, matrix: &Matrix4<f64>) {
+        if !matrix.iter().all(|value| value.is_finite()) {
+            let text = "a transform that is not finite: what it places was left out";
+            self.assembly.notes.add(NoteCode::ReadOtherwise, text);
+        }
     }
 
     fn missing(&mut self, kind: &str, url: &str) {

@@ -18,9 +18,12 @@ use crate::read::scene::{Failure, Fault, GltfUp, NoteCode, Place, Texture};
 use accessor::{Buffers, Fetch, decode, is_data};
 use json::{Node, Primitive, Root};
 
-/// The beginnings of names of extensions for textures, lights and materials, which leave positions as they are.
-const LOOKS: [&str; 5] =
-    ["KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "KHR_materials_"];
+/// What is behind the vendor in names of extensions for textures, lights and materials, which leave positions as they are.
+const LOOKS: [&str; 3] = ["_texture_", "_lights_", "_materials_"];
+
+fn behind_vendor(extension: &str) -> &str {
+    extension.trim_start_matches(|c: char| c.is_ascii_alphanumeric())
+}
 
 pub(super) fn read_json(
     bytes: &[u8],
@@ -93,7 +96,7 @@ fn read_document(
                 return Err(Fault::not_supported(format!("the mesh is compressed ({extension})")));
             }
             "KHR_mesh_quantization" => {}
-            other if LOOKS.iter().any(|look| other.starts_with(look)) => {}
+            other if LOOKS.iter().any(|look| behind_vendor(other).starts_with(look)) => {}
             other => {
                 let text = format!("the extension {other} is required, but not supported");
                 assembly.notes.add(NoteCode::LeftOut, text);

@@ -44,6 +44,26 @@ fn bad_numbers_and_indices_cost_their_triangles_only() {
     assert_eq!((scene.triangle_count(), codes(&scene)), (1, vec![NoteCode::NotFinite]));
 }
 
+/// SPEC 7.5: what such a transform places has no finite corner, and the other node counts.
+#[test]
+fn a_transform_that_is_not_finite_spoils_what_it_places_alone() {
+    for transform in [
+        "<translate>inf 0 0</translate>",
+        "<scale>1e999 1 1</scale>",
+        "<rotate>0 0 0 nan</rotate>",
+        "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 -inf</matrix>",
+        "<lookat>0 0 0 0 0 1 0 0 inf</lookat>",
+        "<skew>inf 0 0 0 0 1 0</skew>",
+    ] {
+        let beside = "<node><instance_geometry url='#g'/></node>";
+        let nodes = format!("{beside}<node id='n'>{transform}<instance_geometry url='#g'/></node>");
+        let whole = File { nodes: beside, ..PLAIN }.load().unwrap();
+        let scene = File { nodes: &nodes, ..PLAIN }.load().unwrap();
+        assert_eq!(scene.merged(), whole.merged(), "{transform}");
+        assert_eq!(codes(&scene), [NoteCode::ReadOtherwise, NoteCode::NotFinite], "{transform}");
+    }
+}
+
 #[test]
 fn what_has_no_meaning_is_refused_with_its_place() {
     let error = File {

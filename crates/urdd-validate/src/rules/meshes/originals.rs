@@ -256,6 +256,9 @@ fn original_misdescribed(context: &Context, findings: &mut Findings) -> Option<(
     let original = document!(context, OriginalMeshes)?;
     for (at, listed) in original.files.iter().enumerate() {
         let Some(read) = context.solids().original(&listed.path) else { continue };
+        if read.may_be_refused && !listed.usable {
+            continue;
+        }
         let path = &listed.path;
         let (usable, message) = match &read.mesh {
             Ok(_) => (true, format!("`{path}` can be read, and has a surface")),
