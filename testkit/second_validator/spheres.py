@@ -203,19 +203,22 @@ def check_contacts(
     return found
 
 
-def collisions(shapes: Shapes, asked: Any, at: list[list[Pose]]) -> list[bool]:
+def collisions(shapes: Shapes, skips: Any, asked: Any, at: list[list[Pose]]) -> list[bool]:
     """8.8.5, 8.8.9: for each configuration, whether pieces are in contact."""
-    bodies: dict[int, list[Body]] = {}
-    for body in shapes.bodies("decomposition_convex_hulls", None):
-        bodies.setdefault(body.link, []).append(body)
-    return [any(links_touch(bodies[a], bodies[b], of[a], of[b]) for a, b in asked) for of in at]
+    bodies = shapes.bodies("decomposition_convex_hulls", None)
+    pairs: dict[tuple[int, int], list[tuple[Body, Body]]] = {pair: [] for pair in asked}
+    for (i, a), (j, b) in itertools.combinations(enumerate(bodies), 2):
+        # Single pairs of pieces are skipped too.
+        if (a.link, b.link) in pairs and not (skips and skips[i][j]):
+            pairs[a.link, b.link].append((a, b))
+    return [any(links_touch(pairs[a, b], of[a], of[b]) for a, b in asked) for of in at]
 
 
-def links_touch(a: list[Body], b: list[Body], pose: Pose, other: Pose) -> bool:
+def links_touch(pairs: list[tuple[Body, Body]], pose: Pose, other: Pose) -> bool:
     back = transposed(pose[0])
     zero = (0.0, 0.0, 0.0)
     relative = compose((back, zero), (other[0], sub(other[1], pose[1])))
-    for one, two in itertools.product(a, b):
+    for one, two in pairs:
         # No point of a body is farther from its link's origin than this.
         if norm(relative[1]) <= one.farthest() + two.farthest():
             if distance_of(one, two, relative) == 0:
@@ -248,7 +251,8 @@ def check_samples(urdd: Urdd, robot: Robot, shapes: Shapes, module: Any) -> None
     found = [check_contacts(urdd, robot, level, at, k) for k, level in enumerate(module["levels"])]
     if not urdd.report.clean("SPH"):
         return
-    in_collision = collisions(shapes, sorted(asked), at)
+    skips = urdd.documents["link_shapes_skips_module"]["decomposition_convex_hulls_skips"]
+    in_collision = collisions(shapes, skips, sorted(asked), at)
     for place, (level, gaps) in enumerate(zip(module["levels"], found)):
         pairs = [
             gaps[pair] for pair in asked - set(pairs_of(level["ignored_pairs"])) if pair in gaps

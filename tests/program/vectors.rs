@@ -4,6 +4,7 @@
 mod conventions;
 mod core_modules;
 mod learned;
+mod loops;
 mod solids;
 
 use std::collections::BTreeSet;
@@ -20,10 +21,12 @@ const FILES: &[(&str, &str)] = &[
     ("hulls.json", "tests/program/vectors/solids.rs"),
     ("in_plane_bases.json", "tests/program/vectors/conventions.rs"),
     ("inertia.json", "tests/program/vectors/core_modules.rs"),
+    ("loops.json", "tests/program/vectors/loops.rs"),
     ("mimics.json", "tests/program/vectors/core_modules.rs"),
     ("rotations.json", "tests/program/vectors/conventions.rs"),
     ("sampled_configurations.json", "crates/urdd-validate/tests/validate/kinematics_figures.rs"),
     ("self_collision_model.json", "tests/program/vectors/learned.rs"),
+    ("spheres.json", "tests/program/vectors/loops.rs"),
 ];
 
 fn folder() -> PathBuf {

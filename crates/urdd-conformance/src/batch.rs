@@ -67,6 +67,7 @@ impl<'a> Batch<'a> {
                 Err(RecvTimeoutError::Timeout) => {}
             }
         };
+        let duration = begin.elapsed();
         let status = |answer: &str| answer.split_whitespace().next()?.parse().ok();
         let (end, stdout) = match answer {
             Ok(answer) => match status(&answer) {
@@ -85,7 +86,7 @@ impl<'a> Batch<'a> {
             }
             _ => judge.stderr.take().map(|tail| tail.finish().0).unwrap_or_default(),
         };
-        Ok(Ran { end, stdout, stderr, codes })
+        Ok(Ran { end, stdout, stderr, codes, duration })
     }
 }
 

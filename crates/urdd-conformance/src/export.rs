@@ -6,18 +6,15 @@ use std::path::Path;
 use rayon::prelude::*;
 use semver::VersionReq;
 use serde::Serialize;
-use serde_json::Value;
 
 use crate::data::{Damage, Data, ROBOTS, VALID, VECTORS, kept, valid_id};
+use crate::profile::{Profile as ValidatorProfile, decides};
 use crate::refused::{self, REFUSED};
 use crate::running::{Result, RunError, Workplace};
 use crate::suite::{Case, CaseKind, Expected, Suite, Verdict, every_version_one};
 use crate::tree::{Tree, TreeError, remove_folder, write_file};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::json;
-use urdd_document::module::is_extension;
-use urdd_format::conformance::ValidatorProfile;
 use urdd_format::registry::{
     FIRST_SPEC_VERSION, ModuleKind, PROGRAM_VERSION, Profile, SPEC_VERSION,
 };
@@ -164,6 +161,9 @@ pub struct Item {
     /// The profiles whose validators can decide it.
     #[serde(skip)]
     pub profiles: Vec<ValidatorProfile>,
+    /// Whether a validator may leave it unverified (SPEC 8.8.9, 8.9.7).
+    #[serde(skip)]
+    pub may_be_unverified: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -192,7 +192,8 @@ pub fn items(suite: &Suite) -> Result<Vec<Item>, Damage> {
             verdict: Verdict::Accept,
             findings: Vec::new(),
             is_about_reading: false,
-            profiles: vec![ValidatorProfile::CoreJson],
+            profiles: ValidatorProfile::ALL.to_vec(),
+            may_be_unverified: has_unverified(&suite.data.carried(&robot)),
         })
     });
     valid.chain(suite.all_cases().map(|case| item(suite, case))).collect()
@@ -204,7 +205,17 @@ fn item(suite: &Suite, case: &Case) -> Result<Item, Damage> {
         true => Profile::V1,
         false => Profile::Legacy,
     };
-    let is_core_json = edition == Profile::V1 && is_core_json(suite, case)?;
+    let mut profiles = Vec::new();
+    for profile in ValidatorProfile::ALL {
+        if edition == Profile::V1 && decides(profile, suite, case)? {
+            profiles.push(profile);
+        }
+    }
+    let may_be_unverified = match case.verdict {
+        Verdict::Accept => suite.bases.get(&case.base).is_some_and(has_unverified),
+        Verdict::Reject => UNVERIFIED.contains(&case.code.as_str()),
+        Verdict::Unreadable => false,
+    };
     Ok(Item {
         id: case.id(),
         folder: format!("{}/{}", case.folder(), case.urdd()),
@@ -220,7 +231,8 @@ fn item(suite: &Suite, case: &Case) -> Result<Item, Damage> {
         verdict: case.verdict,
         findings: case.expected.clone(),
         is_about_reading: case.is_about_reading(),
-        profiles: is_core_json.then_some(ValidatorProfile::CoreJson).into_iter().collect(),
+        profiles,
+        may_be_unverified,
     })
 }
 
@@ -264,53 +276,12 @@ fn text<T: Serialize>(
     })
 }
 
-/// The profile `core-json` (SPEC 12.3): families of the rules about `urdd.json`, `VERSION`, `module.json` of Core modules and the source.
-const FAMILIES: [&str; 13] =
-    ["DIR", "JSN", "SCH", "URD", "SRC", "DOF", "CHN", "CON", "BND", "CMP", "CNF", "LOP", "KIN"];
-/// Rules of these families about what the profile passes over: mirrors that are missing, and drafts.
-const OTHERS: [&str; 2] = ["DIR010", "DIR030"];
-/// Rule about what documents name: the profile reads the documents of Core modules alone.
-const NOT_LISTED: &str = "DIR012";
+/// Rules that a validator may leave unverified (SPEC 8.8.9, 8.9.7). Without LRN010 it does not know the rates of LRN011.
+const UNVERIFIED: [&str; 7] =
+    ["LRN010", "LRN011", "SPH005", "SPH006", "SPH007", "SPH008", "SPH012"];
 
-/// Whether a validator of the profile can decide a case of version 1.
-///
-/// # Errors
-/// If the case is damaged.
-fn is_core_json(suite: &Suite, case: &Case) -> Result<bool, Damage> {
-    let is_of_rule = FAMILIES.iter().any(|family| case.code.starts_with(family))
-        && !OTHERS.contains(&case.code.as_str());
-    if case.packed.is_some() || !(is_of_rule || case.is_about_reading()) {
-        return Ok(false);
-    }
-    if case.kind != CaseKind::Invalid || case.verdict != Verdict::Reject {
-        return Ok(true);
-    }
-    let files = case.expected.iter().filter_map(|expected| expected.file.as_deref());
-    if files.into_iter().any(is_passed_over) {
-        return Ok(false);
-    }
-    Ok(case.code != NOT_LISTED || case.expected.iter().all(is_of_core(suite, case)?))
-}
-
-/// Whether a file is of no interest to the profile: a mirror, or of an extension or a module that is not at the root.
-fn is_passed_over(path: &str) -> bool {
-    let (first, last) = (path.split('/').next(), path.rsplit('/').next());
-    let is_above =
-        |kind: &ModuleKind| kind.folder().split_once('/').map(|(above, _)| above) == first;
-    matches!(last, Some("module.yaml" | "schema.json"))
-        || first.is_some_and(is_extension)
-        || ModuleKind::ALL.iter().any(is_above)
-}
-
-/// Whether a finding in `urdd.json` is about a Core module: one whose folder is in the root.
-fn is_of_core(suite: &Suite, case: &Case) -> Result<impl Fn(&Expected) -> bool, Damage> {
-    let tree = suite.tree(case)?;
-    let metadata = tree.file(ROOT_METADATA).and_then(|bytes| json::read(bytes).ok());
-    let metadata = metadata.map_or(Value::Null, |document| document.value);
-    Ok(move |expected: &Expected| {
-        let at = expected.pointer.as_deref().unwrap_or_default().split('/').nth(2);
-        let name = at.and_then(|at| metadata.pointer(&format!("/modules/{at}/name")));
-        let is_named = |kind: &ModuleKind| name.and_then(Value::as_str) == Some(kind.folder());
-        ModuleKind::ALL.iter().any(is_named)
-    })
+/// Whether a URDD has what a validator may leave unverified.
+fn has_unverified(urdd: &Tree) -> bool {
+    let modules = [ModuleKind::SelfCollisionModel, ModuleKind::LinkShapesSpheres];
+    modules.iter().any(|kind| urdd.file(&format!("{}/module.json", kind.folder())).is_some())
 }

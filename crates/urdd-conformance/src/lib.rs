@@ -12,6 +12,7 @@ pub mod data;
 pub mod export;
 pub mod process;
 pub mod producer;
+pub mod profile;
 pub mod refused;
 pub mod running;
 mod score;

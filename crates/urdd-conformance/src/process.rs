@@ -62,21 +62,34 @@ pub struct Ran {
     pub stderr: String,
     /// The codes of rules in all of its output.
     pub codes: BTreeSet<Code>,
+    /// How long it ran.
+    pub duration: Duration,
 }
 
-/// What interpreters and runtimes (Python, Node.js, the JVM, Go, Rust) print of an uncaught exception or a panic.
+/// What interpreters and runtimes print of an uncaught exception or a panic. Go and OCaml then end with status 2, Rust with
+/// 101, the others with 1.
 const CRASHES: &[&str] = &[
-    "Traceback (most recent call last)",
+    "Traceback (most recent call last)", // Python
     "\nNode.js v",
-    "Exception in thread \"",
-    "\ngoroutine 1 [",
-    "' panicked at ",
+    "Exception in thread \"",        // the JVM
+    "[running]:\n",                  // Go
+    "Fatal error: exception ",       // OCaml
+    "' panicked at ",                // Rust
+    "CallStack (from HasCallStack)", // Haskell
+    "\nStacktrace:\n",               // Julia
+    "\nstack traceback:\n",          // Lua
 ];
 
 impl Ran {
     /// A command that printed nothing.
     pub(crate) fn without_output(end: End) -> Self {
-        Ran { end, stdout: String::new(), stderr: String::new(), codes: BTreeSet::new() }
+        let (stdout, stderr) = Default::default();
+        Ran { end, stdout, stderr, codes: BTreeSet::new(), duration: Duration::ZERO }
+    }
+
+    /// Seconds that it ran, to milliseconds.
+    pub fn seconds(&self) -> f64 {
+        self.duration.as_millis() as f64 / 1000.0
     }
 
     /// Whether it seems to have crashed, so that its exit status says nothing.
@@ -154,6 +167,7 @@ impl Template {
                 word.replace(&format!("{{{name}}}"), &path.to_string_lossy())
             })
         };
+        let begin = Instant::now();
         let mut running = match Running::start(command(&self.words, filled)) {
             Ok(running) => running,
             Err(error) => return Ok(Ran::without_output(End::NotStarted(error.to_string()))),
@@ -166,10 +180,11 @@ impl Template {
             Ok(Ended::TimeLimit | Ended::Enough) => End::TimeLimit,
             Err(error) => End::Signal(error.to_string()),
         };
+        let duration = begin.elapsed();
         let (stdout, mut codes) = stdout.map(Tail::finish).unwrap_or_default();
         let (stderr, more) = stderr.map(Tail::finish).unwrap_or_default();
         codes.extend(more);
-        Ok(Ran { end, stdout, stderr, codes })
+        Ok(Ran { end, stdout, stderr, codes, duration })
     }
 }
 

@@ -48,10 +48,10 @@ pub struct Plan {
 pub enum Event<'a> {
     /// Start, with the number of robots.
     Start(usize),
-    /// A robot is scored. Called from any thread.
-    Scored(&'a RobotScore),
+    /// A robot is scored, after so many seconds of the command. Called from any thread.
+    Scored(&'a RobotScore, f64),
     /// A robot to refuse is scored. Called from any thread.
-    Refused(&'a RefusedScore),
+    Refused(&'a RefusedScore, f64),
 }
 
 /// Form of a line in a producer's skip list.
@@ -107,16 +107,17 @@ pub fn run(
     // The lines of the skip list that took effect.
     let used = Mutex::new(BTreeSet::new());
     let one = |name: &String| -> Result<RobotScore> {
-        let mut score = robot(plan, data, name, &folder.path().join(name))?;
+        let (mut score, seconds) = robot(plan, data, name, &folder.path().join(name))?;
         used.lock().extend(apply_skips(plan, &mut score));
         if score.status == ScoreStatus::Passed {
             (score.stdout, score.stderr) = (None, None);
         }
-        observe(&Event::Scored(&score));
+        observe(&Event::Scored(&score, seconds));
         Ok(score)
     };
     let refuse = |urdf: &Refused| -> Result<RefusedScore> {
-        let mut score = refused(plan, urdf, &folder.path().join(REFUSED).join(&urdf.id))?;
+        let (mut score, seconds) =
+            refused(plan, urdf, &folder.path().join(REFUSED).join(&urdf.id))?;
         let skips = plan.skips.iter().filter(|skip| skip.words.first() == Some(&urdf.id));
         if score.status != ScoreStatus::Passed {
             for skip in skips {
@@ -125,7 +126,7 @@ pub fn run(
                 used.lock().insert(skip.line);
             }
         }
-        observe(&Event::Refused(&score));
+        observe(&Event::Refused(&score, seconds));
         Ok(score)
     };
     let all = || -> Result<(Vec<RobotScore>, Vec<RefusedScore>)> {
@@ -158,12 +159,13 @@ fn ran(plan: &Plan, urdf: &Path, out: &Path) -> Result<Ran, Cancelled> {
     plan.command.run(&[("urdf", urdf), ("out", out)], plan.limit, &plan.cancellation)
 }
 
-fn refused(plan: &Plan, urdf: &Refused, folder: &Path) -> Result<RefusedScore> {
+fn refused(plan: &Plan, urdf: &Refused, folder: &Path) -> Result<(RefusedScore, f64)> {
     let (path, out) = urdf.write(folder)?;
     let ran = ran(plan, &path, &out)?;
+    let seconds = ran.seconds();
     let score = urdf.score(ran, &out, plan.class, &plan.cancellation);
     plan.cancellation.check()?;
-    Ok(score)
+    Ok((score, seconds))
 }
 
 fn is_asked_for(kind: ModuleKind, class: ConformanceClass) -> bool {
@@ -171,7 +173,7 @@ fn is_asked_for(kind: ModuleKind, class: ConformanceClass) -> bool {
 }
 
 /// Runs the command on a robot, in its own folder.
-fn robot(plan: &Plan, data: &Data, name: &str, folder: &Path) -> Result<RobotScore> {
+fn robot(plan: &Plan, data: &Data, name: &str, folder: &Path) -> Result<(RobotScore, f64)> {
     let robots = folder.join(ROBOTS);
     data.write_robots(&robots)?;
     let out = folder.join(name);
@@ -181,7 +183,8 @@ fn robot(plan: &Plan, data: &Data, name: &str, folder: &Path) -> Result<RobotSco
         _ => Err(None),
     };
     plan.cancellation.check()?;
-    Ok(score(plan, name, ran, examined))
+    let seconds = ran.seconds();
+    Ok((score(plan, name, ran, examined), seconds))
 }
 
 fn score(plan: &Plan, name: &str, ran: Ran, examined: Result<Urdd, Option<String>>) -> RobotScore {

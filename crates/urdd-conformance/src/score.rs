@@ -10,6 +10,7 @@ use serde::Serialize;
 use crate::data::UNREADABLE;
 use crate::export::Item;
 use crate::process::{End, Ran, Template};
+use crate::profile::Profile;
 use crate::running::Skip;
 use crate::suite::{CaseKind, Verdict};
 use urdd_directory::cancellation::Cancellation;
@@ -18,7 +19,7 @@ use urdd_format::conformance::{
     UnreadableScore, ValidatorProfile, ValidatorResult, WrongCase,
 };
 use urdd_format::index::Count;
-use urdd_format::registry::Profile;
+use urdd_format::registry::Profile as Edition;
 use urdd_format::report::Tool;
 use urdd_validate::code::Code;
 
@@ -37,16 +38,20 @@ pub struct Plan {
     pub skips: Vec<Skip>,
     /// Id prefixes of the cases to run; empty for all.
     pub only: Vec<String>,
+    /// Ids of cases that failed in an earlier run, to run these alone; `None` for all.
+    pub failed: Option<Vec<String>>,
     /// Whether to include legacy URDDs.
     pub legacy: bool,
     /// Whether to include cases about what cannot be read.
     pub unreadable: bool,
     /// The profile of the validator: only cases that it can decide are run; `None` for a whole one.
-    pub profile: Option<ValidatorProfile>,
+    pub profile: Option<Profile>,
     /// The exit status for rejection.
     pub reject_status: i32,
     /// The exit status for what cannot be read; `None` for 2, where rejecting it is good enough too.
     pub unreadable_status: Option<i32>,
+    /// The exit status for what is not verified (SPEC 8.8.9, 8.9.7); `None` where it is not a verdict.
+    pub unverified_status: Option<i32>,
     /// Number of URDDs to judge in parallel; `None` for the number of processors.
     pub jobs: Option<usize>,
     /// A new folder that keeps the URDDs; `None` for a temporary one.
@@ -56,7 +61,7 @@ pub struct Plan {
 }
 
 /// The exit status for what cannot be read, where none is asked for.
-const UNREADABLE_STATUS: i32 = 2;
+pub const UNREADABLE_STATUS: i32 = 2;
 
 /// How a verdict is wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -75,14 +80,26 @@ pub(crate) fn fault(plan: &Plan, item: &Item, end: &End) -> Option<Fault> {
             // SPEC 2.14 asks no validator for a status of its own: whoever gives none may reject.
             .filter(|fault| *fault != UnreadableFault::Rejected || plan.unreadable_status.is_some())
             .map(Fault::Reading),
-        false => case_fault(plan, item.verdict, end).map(Fault::Case),
+        false => case_fault(plan, item, end).map(Fault::Case),
     }
 }
 
-fn case_fault(plan: &Plan, expected: Verdict, end: &End) -> Option<CaseFault> {
-    match (end, expected) {
+/// Whether a command said that it did not verify what the specification lets it leave so.
+pub(crate) fn is_unverified(plan: &Plan, item: &Item, end: &End) -> bool {
+    item.may_be_unverified && says_unverified(plan, end)
+}
+
+fn says_unverified(plan: &Plan, end: &End) -> bool {
+    plan.unverified_status.is_some_and(|status| *end == End::Status(status))
+}
+
+fn case_fault(plan: &Plan, item: &Item, end: &End) -> Option<CaseFault> {
+    match (end, item.verdict) {
+        _ if is_unverified(plan, item, end) => None,
         (End::Status(0), Verdict::Accept) => None,
         (End::Status(0), _) => Some(CaseFault::Missed),
+        // Of a URDD with a fault that has to be verified.
+        (_, Verdict::Reject) if says_unverified(plan, end) => Some(CaseFault::Missed),
         (End::Status(status), _) if *status != plan.reject_status => Some(CaseFault::Undecided),
         (End::Status(_), Verdict::Accept) => Some(CaseFault::FalseAlarm),
         (End::Status(_), _) => None,
@@ -105,9 +122,13 @@ fn reading_fault(plan: &Plan, expected: Verdict, end: &End) -> Option<Unreadable
     }
 }
 
-/// Whether a rejection looks like a crash. It still counts as a rejection, with a warning.
-pub(crate) fn looks_crashed(plan: &Plan, ran: &Ran) -> bool {
-    ran.end == End::Status(plan.reject_status) && ran.looks_crashed()
+/// Whether a rejection, or a verdict that nothing can be read, looks like a crash. It still counts as that verdict, with a
+/// warning.
+pub(crate) fn looks_crashed(plan: &Plan, item: &Item, ran: &Ran) -> bool {
+    let End::Status(status) = ran.end else { return false };
+    let is_unreadable = status == plan.unreadable_status.unwrap_or(UNREADABLE_STATUS);
+    let is_verdict = status == plan.reject_status || (item.is_about_reading && is_unreadable);
+    is_verdict && ran.looks_crashed()
 }
 
 pub(crate) fn covers(skip: &Skip, item: &Item) -> bool {
@@ -123,17 +144,31 @@ fn family(code: &str) -> &str {
     code.get(..3).unwrap_or(code)
 }
 
-/// How cases were judged; `None` for right.
-type Faults = Vec<Option<CaseFault>>;
+/// How a case was judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Judgement {
+    Right,
+    Wrong(CaseFault),
+    Unverified,
+}
 
-fn counted(faults: &[Option<CaseFault>]) -> CaseScore {
-    let count = |fault| Count::saturating(faults.iter().filter(|one| **one == fault).count());
+fn judgement(plan: &Plan, item: &Item, end: &End) -> Judgement {
+    match case_fault(plan, item, end) {
+        Some(fault) => Judgement::Wrong(fault),
+        None if is_unverified(plan, item, end) => Judgement::Unverified,
+        None => Judgement::Right,
+    }
+}
+
+fn counted(judged: &[Judgement]) -> CaseScore {
+    let count = |one| Count::saturating(judged.iter().filter(|other| **other == one).count());
     CaseScore {
-        of: Count::saturating(faults.len()),
-        right: count(None),
-        missed: count(Some(CaseFault::Missed)),
-        false_alarms: count(Some(CaseFault::FalseAlarm)),
-        undecided: count(Some(CaseFault::Undecided)),
+        of: Count::saturating(judged.len()),
+        right: count(Judgement::Right),
+        missed: count(Judgement::Wrong(CaseFault::Missed)),
+        false_alarms: count(Judgement::Wrong(CaseFault::FalseAlarm)),
+        undecided: count(Judgement::Wrong(CaseFault::Undecided)),
+        unverified: count(Judgement::Unverified),
     }
 }
 
@@ -151,7 +186,7 @@ fn counted_reading(faults: &[Option<UnreadableFault>]) -> UnreadableScore {
 }
 
 pub(crate) fn is_legacy(item: &Item) -> bool {
-    item.profile == Profile::Legacy.as_str()
+    item.profile == Edition::Legacy.as_str()
 }
 
 /// The result of a run: `ran` is of `items`, and `None` for those that this operating system cannot represent.
@@ -161,14 +196,16 @@ pub(crate) fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> Vali
         .filter_map(|(item, ran)| Some(reading_fault(plan, item.verdict, &ran.as_ref()?.end)))
         .collect();
     let mut unreadable = counted_reading(&reading);
-    let (mut totals, mut sound, mut legacy) = (Faults::new(), Faults::new(), Faults::new());
-    let mut crashed = Vec::new();
-    let mut families: BTreeMap<&str, Faults> = BTreeMap::new();
-    let mut codes: BTreeMap<&str, Faults> = BTreeMap::new();
+    let (mut totals, mut sound, mut legacy) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut crashed, mut crashed_unreadable, mut unverified) = (vec![], vec![], vec![]);
+    let mut families: BTreeMap<&str, Vec<Judgement>> = BTreeMap::new();
+    let mut codes: BTreeMap<&str, Vec<Judgement>> = BTreeMap::new();
     let (mut wrong, mut not_run) = (Vec::new(), Vec::new());
     let (mut relevant, mut used) = (BTreeSet::new(), BTreeSet::new());
     let printed = items.iter().zip(&ran).filter(|(item, _)| !is_legacy(item));
-    let printed = printed.filter_map(|(item, ran)| Some((item, &ran.as_ref()?.codes)));
+    let printed = printed.filter_map(|(item, ran)| Some((item, ran.as_ref()?)));
+    let printed = printed.filter(|(item, ran)| !is_unverified(plan, item, &ran.end));
+    let printed = printed.map(|(item, ran)| (item, &ran.codes));
     let printed_codes = score_codes(printed);
     for (item, ran) in items.iter().zip(ran) {
         let Some(ran) = ran else {
@@ -177,19 +214,25 @@ pub(crate) fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> Vali
         };
         let fault = fault(plan, item, &ran.end);
         if !item.is_about_reading {
-            let fault = case_fault(plan, item.verdict, &ran.end);
+            let judged = judgement(plan, item, &ran.end);
             let (is_legacy, is_sound) = (is_legacy(item), item.kind != CaseKind::Invalid);
-            if is_legacy { &mut legacy } else { &mut totals }.push(fault);
+            if is_legacy { &mut legacy } else { &mut totals }.push(judged);
             if is_sound && !is_legacy {
-                sound.push(fault);
+                sound.push(judged);
             }
             if let Some(code) = item.code.as_deref() {
-                families.entry(family(code)).or_default().push(fault);
-                codes.entry(code).or_default().push(fault);
+                families.entry(family(code)).or_default().push(judged);
+                codes.entry(code).or_default().push(judged);
+            }
+            if judged == Judgement::Unverified {
+                // A skip of it is neither used nor stale.
+                unverified.push(item.id.clone());
+                continue;
             }
         }
-        if looks_crashed(plan, &ran) {
-            crashed.push(item.id.clone());
+        if looks_crashed(plan, item, &ran) {
+            let is_rejection = ran.end == End::Status(plan.reject_status);
+            if is_rejection { &mut crashed } else { &mut crashed_unreadable }.push(item.id.clone());
         }
         let mut reason = None;
         for skip in plan.skips.iter().filter(|skip| covers(skip, item)) {
@@ -215,10 +258,10 @@ pub(crate) fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> Vali
     // Skips of cases that were not run are not stale.
     let stale = |skip: &&Skip| relevant.contains(&skip.line) && !used.contains(&skip.line);
     let stale_skips: Vec<String> = plan.skips.iter().filter(stale).map(Skip::what).collect();
-    let groups = |judged: BTreeMap<&str, Faults>| {
-        let group = |(name, faults): (&str, Faults)| GroupScore {
+    let groups = |judged: BTreeMap<&str, Vec<Judgement>>| {
+        let group = |(name, judged): (&str, Vec<Judgement>)| GroupScore {
             name: name.to_owned(),
-            score: counted(&faults),
+            score: counted(&judged),
         };
         judged.into_iter().map(group).collect()
     };
@@ -239,8 +282,14 @@ pub(crate) fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> Vali
         crashed,
         not_run,
         stale_skips,
-        profile: plan.profile,
+        profile: plan
+            .profile
+            .filter(|one| *one == Profile::CoreJson)
+            .map(|_| ValidatorProfile::CoreJson),
         unreadable,
+        unverified,
+        crashed_unreadable,
+        class: plan.profile.and_then(Profile::class),
     }
 }
 
@@ -296,6 +345,7 @@ mod tests {
             findings: Vec::new(),
             is_about_reading: code.is_none(),
             profiles: Vec::new(),
+            may_be_unverified: false,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Runs an external validator on the suite, and scores its verdicts.
 //!
 //! The verdict is the exit status only: 0 accepts, 1 (or an agreed status) rejects, 2 (or an agreed status) says that
-//! nothing can be read as a URDD. Any other is not a verdict.
+//! nothing can be read as a URDD, and an agreed status that something is not verified. Any other is not a verdict.
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -11,8 +11,8 @@ use crate::data::{ROBOTS, VALID, valid_id};
 use crate::export::{Item, items, write_valid};
 use crate::process::Ran;
 use crate::running::{Result, RunError, Workplace, check_skips, relative, with_threads};
-pub use crate::score::{Fault, Plan};
-use crate::score::{covers, fault, is_legacy, looks_crashed, scored};
+pub use crate::score::{Fault, Plan, UNREADABLE_STATUS};
+use crate::score::{covers, fault, is_legacy, is_unverified, looks_crashed, scored};
 use crate::suite::{Case, Suite, Verdict};
 use crate::tree::{TreeError, remove_folder};
 use urdd_directory::cancellation::Cancelled;
@@ -28,8 +28,12 @@ pub struct Judged<'a> {
     pub expected: Verdict,
     /// How the verdict is wrong; `None` if it is right.
     pub fault: Option<Fault>,
+    /// Whether it is not verified, as the specification allows: neither right nor wrong.
+    pub unverified: bool,
     /// How the command ended.
     pub end: String,
+    /// How long it took.
+    pub seconds: f64,
     /// Whether the command seems to have crashed, so that its exit status is unreliable.
     pub crashed: bool,
     /// The end of its standard error.
@@ -72,9 +76,11 @@ pub fn run(
     let (data, all) = (&suite.data, urdds(suite)?);
     check_skips(&plan.skips, |skip| all.iter().any(|urdd| covers(skip, &urdd.item)))?;
     let begins = |item: &Item| plan.only.iter().any(|start| item.id.starts_with(start));
+    let again = |failed: &Vec<String>, item: &Item| failed.contains(&item.id);
     let chosen = all.into_iter().filter(|Chosen { item, .. }| {
         item.spec_versions.matches(&plan.spec_version)
             && (plan.only.is_empty() || begins(item))
+            && plan.failed.as_ref().is_none_or(|failed| again(failed, item))
             && (plan.legacy || !is_legacy(item))
             && (plan.unreadable || !item.is_about_reading)
             && plan.profile.is_none_or(|profile| item.profiles.contains(&profile))
@@ -106,8 +112,10 @@ pub fn run(
                 id: &urdd.item.id,
                 expected: urdd.item.verdict,
                 fault: fault(plan, &urdd.item, &ran.end),
+                unverified: is_unverified(plan, &urdd.item, &ran.end),
                 end: ran.end.to_string(),
-                crashed: looks_crashed(plan, ran),
+                seconds: ran.seconds(),
+                crashed: looks_crashed(plan, &urdd.item, ran),
                 stderr: &ran.stderr,
                 codes: ran.codes.iter().copied().map(Code::as_str).collect(),
             })),

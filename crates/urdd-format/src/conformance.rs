@@ -9,7 +9,7 @@ use super::types::module;
 pub const PRODUCER_RESULT_VERSION: &str = "1.0.0";
 
 /// Version of the format of a validator's result.
-pub const VALIDATOR_RESULT_VERSION: &str = "1.1.0";
+pub const VALIDATOR_RESULT_VERSION: &str = "1.2.0";
 
 module! {
     /// How somebody's producer did on our robots.
@@ -194,6 +194,12 @@ module! {
         pub profile: Option<ValidatorProfile>,
         /// Sums over URDDs that cannot be read, and near misses of these. They count nowhere above.
         pub unreadable: UnreadableScore,
+        /// Cases of which the command said that they are not verified, as the specification allows: neither right nor wrong.
+        pub unverified: Vec<String>,
+        /// Cases that were called unreadable by a command that seems to have crashed. They count as that verdict.
+        pub crashed_unreadable: Vec<String>,
+        /// The class whose cases alone were run (SPEC 12.2); null for a whole validator, or one of a profile.
+        pub class: Option<ConformanceClass>,
     }
 
     /// A part of the specification that a validator can be limited to.
@@ -260,6 +266,8 @@ module! {
         pub false_alarms: Count,
         /// Neither accepted nor rejected.
         pub undecided: Count,
+        /// Not verified, as the specification allows: neither right nor wrong.
+        pub unverified: Count,
     }
 
     /// The score of a family or a code.

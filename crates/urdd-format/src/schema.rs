@@ -22,6 +22,16 @@ use super::root_metadata::RootMetadata;
 pub const EARLIER_DIFF_REPORTS: [(&str, &[&str]); 3] =
     [("1.0.0", &["configurations"]), ("1.1.0", &["srdf", "setup", "lost"]), ("1.2.0", &["loops"])];
 
+/// The earlier versions of the result of a validator, each with the keys and types that the one after it has more.
+const EARLIER_VALIDATOR_RESULTS: [(&str, &[&str], &[&str]); 2] = [
+    (
+        "1.0.0",
+        &["profile", "unreadable"],
+        &["ValidatorProfile", "UnreadableScore", "UnreadableCase", "UnreadableFault"],
+    ),
+    ("1.1.0", &["unverified", "crashed_unreadable", "class"], &["ConformanceClass"]),
+];
+
 /// A document that has a published schema.
 #[derive(Clone, Copy)]
 pub enum Subject {
@@ -41,8 +51,8 @@ pub enum Subject {
     ProducerResult,
     /// Output of `urdd conformance validator --format json`.
     ValidatorResult,
-    /// The same in its first version, without profiles and URDDs that cannot be read.
-    FirstValidatorResult,
+    /// The same in an earlier version, by its place in [`EARLIER_VALIDATOR_RESULTS`].
+    EarlierValidatorResult(usize),
 }
 
 /// Intended use of a schema.
@@ -118,12 +128,12 @@ impl Subject {
         let modules = modules().iter().map(Subject::Module);
         let earlier = (0..EARLIER_DIFF_REPORTS.len()).map(Subject::EarlierDiffReport);
         let reports = [Subject::FirstReport, Subject::Report].into_iter().chain(earlier);
-        std::iter::once(Subject::RootMetadata).chain(modules).chain(reports).chain([
-            Subject::DiffReport,
-            Subject::ProducerResult,
-            Subject::FirstValidatorResult,
-            Subject::ValidatorResult,
-        ])
+        std::iter::once(Subject::RootMetadata)
+            .chain(modules)
+            .chain(reports)
+            .chain([Subject::DiffReport, Subject::ProducerResult])
+            .chain((0..EARLIER_VALIDATOR_RESULTS.len()).map(Subject::EarlierValidatorResult))
+            .chain([Subject::ValidatorResult])
     }
 
     /// The subject with an id such as `dof_module@1.0.0`.
@@ -148,7 +158,7 @@ impl Subject {
             Subject::Report | Subject::FirstReport => "report",
             Subject::DiffReport | Subject::EarlierDiffReport(_) => "diff_report",
             Subject::ProducerResult => "producer_result",
-            Subject::ValidatorResult | Subject::FirstValidatorResult => "validator_result",
+            Subject::ValidatorResult | Subject::EarlierValidatorResult(_) => "validator_result",
             Subject::Module(spec) => spec.kind.name(),
         }
     }
@@ -156,7 +166,8 @@ impl Subject {
     /// Version of its format; `unversioned` for a legacy module without one.
     pub fn version(self) -> &'static str {
         match self {
-            Subject::RootMetadata | Subject::FirstReport | Subject::FirstValidatorResult => "1.0.0",
+            Subject::RootMetadata | Subject::FirstReport => "1.0.0",
+            Subject::EarlierValidatorResult(place) => EARLIER_VALIDATOR_RESULTS[place].0,
             Subject::EarlierDiffReport(place) => EARLIER_DIFF_REPORTS[place].0,
             Subject::Report => REPORT_VERSION,
             Subject::DiffReport => DIFF_REPORT_VERSION,
@@ -190,11 +201,14 @@ impl Subject {
             }
             Subject::ProducerResult => schemars::schema_for!(ProducerResult),
             Subject::ValidatorResult => schemars::schema_for!(ValidatorResult),
-            Subject::FirstValidatorResult => without(
-                schemars::schema_for!(ValidatorResult),
-                &["profile", "unreadable"],
-                &["ValidatorProfile", "UnreadableScore", "UnreadableCase", "UnreadableFault"],
-            ),
+            Subject::EarlierValidatorResult(place) => {
+                let later = &EARLIER_VALIDATOR_RESULTS[place..];
+                let keys: Vec<&str> =
+                    later.iter().flat_map(|(_, keys, _)| *keys).copied().collect();
+                let types: Vec<&str> =
+                    later.iter().flat_map(|(_, _, types)| *types).copied().collect();
+                without(schemars::schema_for!(ValidatorResult), &keys, &types)
+            }
             Subject::Module(spec) => spec.schema(),
         };
         let suffix = match variant {

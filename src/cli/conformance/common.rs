@@ -26,6 +26,9 @@ const MAX_SKIP_BYTES: u64 = 1 << 20;
 /// Maximum length of a log line, in bytes. A command's output is limited to 2,000 in it.
 const MAX_LOG_LINE: u64 = 1 << 20;
 
+/// Maximum size of a log that is read, in bytes.
+const MAX_LOG_BYTES: u64 = 64 << 20;
+
 /// Arguments of both commands.
 #[derive(Args)]
 pub struct RunArguments {
@@ -50,6 +53,10 @@ pub struct RunArguments {
     /// results. Does not overwrite an existing file that is not such a log.
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
+
+    /// Runs only what failed according to a file that --log wrote. It may be the file that --log now writes.
+    #[arg(long, value_name = "LOG")]
+    failed: Option<PathBuf>,
 
     /// Lets --log overwrite a file that is not a log.
     #[arg(long, requires = "log")]
@@ -91,6 +98,30 @@ impl RunArguments {
         Ok(Follow::new(Some((path.clone(), file))))
     }
 
+    /// Names of what failed according to a log; `None` for no log.
+    pub fn failed(&self) -> Result<Option<Vec<String>>, Failure> {
+        let Some(file) = &self.failed else {
+            return Ok(None);
+        };
+        let text = read(file, MAX_LOG_BYTES)?;
+        let mut names = Vec::new();
+        for (index, line) in text.lines().enumerate() {
+            let value: Value = serde_json::from_str(line).unwrap_or_default();
+            let Some(name) = name(&value) else {
+                let reason = format!("line {} is not of a log of this command", index + 1);
+                return Err(about(file)(reason).into());
+            };
+            let has_fault = value.get("fault").is_some_and(|fault| !fault.is_null());
+            if has_fault || value["status"] == "failed" {
+                names.push(name.to_owned());
+            }
+        }
+        if names.is_empty() {
+            Err(about(file)("nothing failed in this log"))?;
+        }
+        Ok(Some(names))
+    }
+
     /// An error if the log would overwrite another file.
     fn check_log(&self, path: &Path) -> Result<(), Failure> {
         outputs::check_name(path)?;
@@ -111,11 +142,9 @@ impl RunArguments {
         let Some(file) = &self.skip else {
             return Ok(Vec::new());
         };
-        let shown = file.display();
-        let unreadable = |reason: &dyn Display| format!("{shown}: cannot be read: {reason}");
-        let bytes = regular::read(file, MAX_SKIP_BYTES).map_err(|error| unreadable(&error))?;
-        let text = String::from_utf8(bytes).map_err(|_| unreadable(&"it is not UTF-8"))?;
-        Ok(read_skips(&text, words, form).map_err(|error| format!("{shown}: {error}"))?)
+        let text = read(file, MAX_SKIP_BYTES)?;
+        let skips = read_skips(&text, words, form);
+        Ok(skips.map_err(|error| format!("{}: {error}", file.display()))?)
     }
 
     /// Prints a result, and writes it to the file of `--output`. `human` writes it for people.
@@ -133,6 +162,13 @@ impl RunArguments {
     }
 }
 
+/// The text of a file.
+fn read(file: &Path, most: u64) -> Result<String, String> {
+    let unreadable = |reason: &dyn Display| format!("{}: cannot be read: {reason}", file.display());
+    let bytes = regular::read(file, most).map_err(|error| unreadable(&error))?;
+    String::from_utf8(bytes).map_err(|_| unreadable(&"it is not UTF-8"))
+}
+
 /// Whether a file begins like the output of [`Follow::done`].
 fn is_log(file: &Path) -> bool {
     let Ok(file) = regular::open(file) else {
@@ -142,8 +178,13 @@ fn is_log(file: &Path) -> bool {
     let mut reader = BufReader::new(file.take(MAX_LOG_LINE));
     let read = reader.read_until(b'\n', &mut line);
     let value: Option<Value> = read.ok().and_then(|_| serde_json::from_slice(&line).ok());
-    let has = |key: &str| value.as_ref().is_some_and(|value| value.get(key).is_some());
-    has("end") && (has("id") || has("robot"))
+    value.is_some_and(|value| name(&value).is_some())
+}
+
+/// What a line of a log is about.
+fn name(line: &Value) -> Option<&str> {
+    line.get("end")?;
+    line.get("id").or_else(|| line.get("robot"))?.as_str()
 }
 
 /// Runs a command that starts other programs, until a signal cancels it. `result` returns whether everything passed, except

@@ -7,6 +7,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
+use serde::Serialize;
 
 use self::common::RunArguments;
 use super::arguments::Class;
@@ -86,12 +87,24 @@ pub struct ProducerArguments {
     run: RunArguments,
 }
 
+/// A score in the log, with the seconds that the command took.
+#[derive(Serialize)]
+struct Timed<'a, T> {
+    #[serde(flatten)]
+    score: &'a T,
+    seconds: &'a f64,
+}
+
 /// Runs `urdd conformance producer`. Returns whether it passed.
 fn produced(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, Failure> {
+    let failed = arguments.run.failed()?;
+    if failed.is_some() && !arguments.robots.is_empty() {
+        Err("give --failed or --robot, not both")?;
+    }
     let plan = Plan {
         command: Template::new(&arguments.run.command, &["urdf", "out"])?,
         class: arguments.class.into(),
-        robots: arguments.robots.clone(),
+        robots: failed.unwrap_or_else(|| arguments.robots.clone()),
         limit: arguments.run.limit(),
         skips: arguments.run.skips(2, SKIP_FORM)?,
         jobs: arguments.run.jobs.map_or(1, usize::from),
@@ -102,8 +115,12 @@ fn produced(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, Fa
     let follow = arguments.run.follow()?;
     let observe = |event: &Event| match event {
         Event::Start(of) => follow.start(*of),
-        Event::Scored(robot) => follow.done(robot.status == ScoreStatus::Failed, Some(robot)),
-        Event::Refused(urdf) => follow.done(urdf.status == ScoreStatus::Failed, Some(urdf)),
+        Event::Scored(score, seconds) => {
+            follow.done(score.status == ScoreStatus::Failed, Some(&Timed { score, seconds }));
+        }
+        Event::Refused(score, seconds) => {
+            follow.done(score.status == ScoreStatus::Failed, Some(&Timed { score, seconds }));
+        }
     };
     let result = run_producer(&plan, &suite, &observe);
     follow.finish()?;

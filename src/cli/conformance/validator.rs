@@ -9,10 +9,12 @@ use super::common::RunArguments;
 use crate::cli::output::{Failure, Signals};
 use crate::suite;
 use urdd_conformance::process::Template;
-use urdd_conformance::validator::{Event, Fault, Judged, Plan, SKIP_FORM, run as run_validator};
+use urdd_conformance::profile::Profile;
+use urdd_conformance::validator::{
+    Event, Fault, Judged, Plan, SKIP_FORM, UNREADABLE_STATUS, run as run_validator,
+};
 use urdd_format::conformance::{
-    CaseFault, CaseScore, PrintedCodes, UnreadableFault, UnreadableScore, ValidatorProfile,
-    ValidatorResult,
+    CaseFault, CaseScore, PrintedCodes, UnreadableFault, UnreadableScore, ValidatorResult,
 };
 use urdd_format::index::Count;
 use urdd_format::readable::first_of;
@@ -22,7 +24,8 @@ use urdd_format::registry::SPEC_VERSION;
 #[derive(Args)]
 #[command(
     after_help = "In COMMAND, {dir} stands for the folder of a URDD; the command runs once for each case. Exit status 0 \
-    accepts, 1 (or --reject-status) rejects, 2 (or --unreadable-status) says that nothing can be read as a URDD. \
+    accepts, 1 (or --reject-status) rejects, 2 (or --unreadable-status) says that nothing can be read as a URDD, \
+    --unverified-status that something is not verified that need not be. \
     Anything else, including a signal or the time limit, is not a verdict and counts as wrong. Reject what breaks a \
     MUST of the specification, and nothing else: a URDD with warnings is to be accepted. Codes of rules that the \
     command prints, such as DOF003, are scored apart and decide nothing.\n\nExit status: 0 every verdict is right or \
@@ -47,9 +50,15 @@ pub struct ValidatorArguments {
     reject_status: i32,
 
     /// Exit status with which the command says that nothing can be read as a URDD: a folder without one, or an archive that
-    /// lies. 2 without this option, and rejecting these is right then too.
+    /// lies. 2 without this option, and rejecting these is right then too. An uncaught exception of OCaml, or a panic of Go,
+    /// also ends with 2.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(i32).range(1..=255))]
     unreadable_status: Option<i32>,
+
+    /// Exit status with which the command says that it found no fault, and did not verify a self-collision model or spheres
+    /// (SPEC 8.8.9, 8.9.7). These cases are counted apart, neither right nor wrong.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(i32).range(1..=255))]
+    unverified_status: Option<i32>,
 
     /// Leaves out what cannot be read, and near misses of it.
     #[arg(long)]
@@ -74,6 +83,36 @@ pub struct ValidatorArguments {
 enum ProfileName {
     /// Core modules, by their JSON and the source alone: no YAML mirrors, extensions, meshes, archives, legacy URDDs.
     CoreJson,
+    /// The class Core: SPEC 12.2.
+    Core,
+    /// The class Geometry: Core and meshes.
+    Geometry,
+    /// The class Shapes: Geometry and shapes of links, without self-collision models and spheres.
+    Shapes,
+}
+
+impl From<ProfileName> for Profile {
+    fn from(name: ProfileName) -> Profile {
+        match name {
+            ProfileName::CoreJson => Profile::CoreJson,
+            ProfileName::Core => Profile::Core,
+            ProfileName::Geometry => Profile::Geometry,
+            ProfileName::Shapes => Profile::Shapes,
+        }
+    }
+}
+
+impl ValidatorArguments {
+    /// The status for what is not verified; an error if it is that of another verdict.
+    fn unverified_status(&self) -> Result<Option<i32>, Failure> {
+        let others = [self.reject_status, self.unreadable_status.unwrap_or(UNREADABLE_STATUS)];
+        match self.unverified_status {
+            Some(status) if others.contains(&status) => Err(format!(
+                "--unverified-status {status} is that of another verdict: give another"
+            ))?,
+            status => Ok(status),
+        }
+    }
 }
 
 /// Runs `urdd conformance validator`. Returns whether it passed.
@@ -89,11 +128,13 @@ pub fn judged(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool,
         limit: arguments.run.limit(),
         skips: arguments.run.skips(1, SKIP_FORM)?,
         only: arguments.only.clone(),
+        failed: arguments.run.failed()?,
         legacy: !arguments.no_legacy,
         unreadable: !arguments.no_unreadable,
-        profile: arguments.profile.map(|ProfileName::CoreJson| ValidatorProfile::CoreJson),
+        profile: arguments.profile.map(Profile::from),
         reject_status: arguments.reject_status,
         unreadable_status: arguments.unreadable_status,
+        unverified_status: arguments.unverified_status()?,
         jobs: arguments.run.jobs.map(usize::from),
         keep: arguments.run.keep.clone(),
         cancellation: signals.cancellation(),
@@ -164,6 +205,14 @@ fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
             result.crashed.len()
         )?;
     }
+    if let Some(first) = result.crashed_unreadable.first() {
+        writeln!(
+            out,
+            "warning: {} verdicts that nothing can be read look like crashes, the first is {first}: an uncaught exception of \
+             OCaml and a panic of Go end with status 2. End with another status, and give it with --unreadable-status",
+            result.crashed_unreadable.len()
+        )?;
+    }
     for stale in &result.stale_skips {
         writeln!(out, "stale skip, remove it: {stale}")?;
     }
@@ -210,6 +259,7 @@ fn score(score: &CaseScore) -> String {
         (score.missed, "missed"),
         (score.false_alarms, "false alarms"),
         (score.undecided, "without a verdict"),
+        (score.unverified, "not verified"),
     ];
     counted(score.right, score.of, &faults)
 }

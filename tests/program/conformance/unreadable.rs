@@ -111,6 +111,33 @@ fn skips_name_one_or_all() {
     assert_eq!(run(&skip, &OURS).1["stale_skips"], json!(["unreadable/empty-folder"]));
 }
 
+/// Go and OCaml end with 2 when nobody catches what they raise.
+#[test]
+fn a_crash_that_looks_unreadable_is_warned_of() {
+    for crash in ["Fatal error: exception Not_found", "panic: oops\n\ngoroutine 18 [running]:"] {
+        let script = format!("printf '{crash}\n' >&2; exit 2");
+        let (_, result) = shell(&SOME, &script);
+        let crashed = result["crashed_unreadable"].as_array().map(Vec::len);
+        assert_eq!(
+            (crashed, &result["crashed"]),
+            (Some(number(&result, "of") as usize), &json!([]))
+        );
+        let output = conformance(
+            &[&["validator"], &SOME[..], &["--", "sh", "-c", &script, "sh", "{dir}"]].concat(),
+        );
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(
+            said.contains("look like crashes") && said.contains("--unreadable-status"),
+            "{said}"
+        );
+        // With a status of its own, it is no verdict.
+        let own = [&SOME[..], &["--unreadable-status", "9"]].concat();
+        let (_, result) = shell(&own, &script);
+        assert_eq!(number(&result, "undecided"), number(&result, "of"));
+        assert_eq!(result["crashed_unreadable"], json!([]));
+    }
+}
+
 #[test]
 fn people_read_how_many_were_told() {
     let said = |command: &[&str]| {
@@ -143,4 +170,18 @@ fn a_validator_of_core_modules_is_right_on_its_profile() {
     let wrong = whole["wrong"].as_array().into_iter().flatten();
     let wrong: Vec<&str> = wrong.filter_map(|case| case["id"].as_str()).collect();
     assert!(wrong.iter().any(|id| id.starts_with("YML001/")), "{wrong:?}");
+}
+
+#[test]
+fn a_validator_of_a_class_is_right_on_its_profile() {
+    let passed_over = "MSH,SHP,LRN,SPH,LEG,SRC007";
+    let command = [URDD, "validate", "--ignore", passed_over, "{dir}"];
+    let cases = ["YML001", "EXT00", "DIR01", "DIR023", "MSH001", "SPH001", "unreadable/d"];
+    let only: Vec<&str> = cases.iter().flat_map(|case| ["--case", case]).collect();
+    let (status, result) = run(&[&only[..], &["--profile", "core"]].concat(), &command);
+    assert_eq!((status, &result["class"], &result["profile"]), (0, &json!("Core"), &Value::Null));
+    let names: Vec<&Value> =
+        result["families"].as_array().into_iter().flatten().map(|family| &family["name"]).collect();
+    assert_eq!(names, ["DIR", "EXT", "YML"], "{result:#}");
+    assert!(number(&result, "of") > 5, "archives are of the class");
 }

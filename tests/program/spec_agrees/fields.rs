@@ -20,7 +20,7 @@ pub fn tables() -> String {
             | Subject::EarlierDiffReport(_)
             | Subject::ProducerResult
             | Subject::ValidatorResult
-            | Subject::FirstValidatorResult => continue,
+            | Subject::EarlierValidatorResult(_) => continue,
             _ => {}
         }
         let schema = subject.schema(Variant::Strict);

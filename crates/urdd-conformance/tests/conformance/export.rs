@@ -1,11 +1,13 @@
 //! The exported suite, for programs in any language.
 
+use std::collections::BTreeSet;
 use std::fs;
 
 use serde_json::Value;
 use testkit::trials::sample;
 use urdd_conformance::export::export;
 use urdd_conformance::suite::Case;
+use urdd_conformance::tree::Node;
 
 use crate::suite;
 
@@ -74,7 +76,7 @@ fn everything_that_is_listed_is_there() {
     let empty = newer_cases.iter().find(|case| case["id"] == "unreadable/empty-folder");
     let empty = empty.expect("a case about what cannot be read");
     assert_eq!((&empty["verdict"], &empty["code"]), (&"unreadable".into(), &Value::Null));
-    assert_eq!(empty["profiles"], serde_json::json!(["core-json"]));
+    assert_eq!(empty["profiles"], serde_json::json!(["core-json", "core", "geometry", "shapes"]));
     let folder = out.join(empty["folder"].as_str().expect("a folder"));
     assert_eq!(fs::read_dir(folder).expect("a folder").count(), 0);
     assert!(out.join("robots/gripper.urdf").is_file());
@@ -82,4 +84,42 @@ fn everything_that_is_listed_is_there() {
     for refused in ["KIN001/poses-beyond-numbers", "URD005/link-held-by-two-joints"] {
         assert!(out.join("refused").join(format!("{refused}.urdf")).is_file());
     }
+}
+
+/// The README says how much an export is: counted by the bases, which cases change little, in blocks of 4 KiB.
+#[test]
+fn the_readme_says_how_large_an_export_is() {
+    const BLOCK: usize = 4096;
+    let suite = suite();
+    let (mut files, mut bytes, mut folders) = (0, 0, 0);
+    for case in suite.all_cases().filter(|case| case.packed.is_none()) {
+        let nodes = &suite.bases[&case.base].nodes;
+        let contents = nodes.values().filter_map(|node| match node {
+            Node::File(bytes) => Some(bytes.len()),
+            Node::Link(_) | Node::Folder => None,
+        });
+        for size in contents {
+            files += 1;
+            bytes += size.div_ceil(BLOCK) * BLOCK;
+        }
+        let paths = nodes.keys().filter_map(|path| path.as_str());
+        let parents: BTreeSet<&str> =
+            paths.filter_map(|path| Some(path.rsplit_once('/')?.0)).collect();
+        folders += parents.len() + 2;
+    }
+    let (thousands, size) = (files as f64 / 1e3, (bytes + folders * BLOCK) as f64 / 1e9);
+    let readme = String::from_utf8_lossy(suite.data.file("README.md").expect("it is there"));
+    let stated = |before: &str, after: &str| -> f64 {
+        let (_, rest) = readme.split_once(before).unwrap_or_else(|| panic!("no {before:?}"));
+        let (number, _) = rest.split_once(after).unwrap_or_else(|| panic!("no {after:?}"));
+        number.replace(',', "").parse().expect("a number")
+    };
+    let (stated_size, stated_files) =
+        (stated("with a list (", " GB"), stated("its folders, in ", " small files") / 1e3);
+    let near = |stated: f64, found: f64| (stated / found - 1.0).abs() < 0.05;
+    assert!(near(stated_size, size), "README.md says {stated_size} GB, and it is {size:.2} GB");
+    assert!(
+        near(stated_files, thousands),
+        "README.md says {stated_files} thousand files, and there are {thousands:.0}"
+    );
 }

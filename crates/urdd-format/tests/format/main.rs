@@ -64,7 +64,7 @@ fn read(subject: Subject, value: &Value) -> Result<Document, serde_json::Error> 
         Subject::ProducerResult => {
             ProducerResult::deserialize(value).map(|r| Document::ProducerResult(Box::new(r)))
         }
-        Subject::ValidatorResult | Subject::FirstValidatorResult => {
+        Subject::ValidatorResult | Subject::EarlierValidatorResult(_) => {
             ValidatorResult::deserialize(value).map(|r| Document::ValidatorResult(Box::new(r)))
         }
     }
@@ -86,8 +86,8 @@ fn is_written(file: &str, test: &str, expected: &str) {
 /// Every document that has a type: all but earlier versions of a report.
 fn subjects() -> impl Iterator<Item = Subject> {
     Subject::all().filter(|subject| {
-        use Subject::{EarlierDiffReport, FirstReport, FirstValidatorResult};
-        !matches!(subject, FirstReport | EarlierDiffReport(_) | FirstValidatorResult)
+        use Subject::{EarlierDiffReport, EarlierValidatorResult, FirstReport};
+        !matches!(subject, FirstReport | EarlierDiffReport(_) | EarlierValidatorResult(_))
     })
 }
 
