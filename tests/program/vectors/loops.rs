@@ -6,11 +6,11 @@ use serde::Deserialize;
 use serde_json::Value;
 use urdd_conformance::suite::Suite;
 use urdd_conformance::tree::Tree;
+use urdd_document::pose::to_isometry;
 use urdd_format::dof::Quantity;
 use urdd_format::loops::{LoopKind, LoopsModule};
 use urdd_format::pose::Pose;
 use urdd_kinematics::loops::Gap;
-use urdd_kinematics::pose::to_isometry;
 use urdd_robot::Robot;
 
 use super::{assert_near, vectors};
