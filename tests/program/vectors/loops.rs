@@ -51,7 +51,7 @@ fn gaps_of_each_kind() {
         let place = format!("{:?} {:?}", one.kind, one.frame_b_in_frame_a);
         let (found, expected) =
             ([found.position, found.rotation], [one.position_gap, one.rotation_gap]);
-        assert_near(&found, &expected, 1e-15, &place);
+        assert_near(&found, &expected, 1e-14, &place);
     }
 }
 
