@@ -1,5 +1,7 @@
 //! The commands that run the conformance suite. Its crate's tests judge the cases.
 
+#[cfg(unix)]
+mod again;
 mod export;
 mod producer;
 #[cfg(unix)]
