@@ -27,6 +27,7 @@ from .shapes_of_urdf import Shape
 from .sound import files_agree, is_binary_gltf, sound
 
 MAX_OUT = 0.02  # 7.10
+SPLINTER = 8  # 7.10
 MAX_UNCOVERED = 0.05  # 7.10
 
 
@@ -163,7 +164,7 @@ def piece_is_near(piece: bytes, hull: bytes) -> bool:
     mesh = shown(hull)
     least = resolution(mesh)
     planes = planes_of(mesh, least)
-    allowed = max(MAX_OUT * diagonal(corners(mesh)), least)
+    allowed = max(MAX_OUT * diagonal(corners(mesh)), SPLINTER * least)
     points = corners(shown(piece))
     return all(outside(planes, point) <= allowed for point in points)
 

@@ -11,6 +11,7 @@ from .numeric import Vector, add, cross, distance, dot, norm, scaled, sub
 Point = tuple[float, float, float]
 Triangle = tuple[Point, Point, Point]
 RESOLUTION = 8 * 2.0**-23  # 7.6
+NEEDED = 5  # 7.6.1
 
 
 def largest_coordinate(triangles: Iterable[Triangle]) -> float:
@@ -95,19 +96,27 @@ class TriangleIndex:
         return found
 
 
+def needs_counterpart(triangle: Triangle, tolerance: float) -> bool:
+    """7.6.1: whether it has to be in a mesh that is compared with its own."""
+    return least_height(triangle) > NEEDED * tolerance
+
+
 def same_triangles(one: list[Triangle], other: list[Triangle], tolerance: float) -> bool:
-    """7.6: whether two files hold the same triangles, each as often; slivers count for nothing."""
-    mine = [t for t in one if least_height(t) > tolerance]
-    theirs = [t for t in other if least_height(t) > tolerance]
+    """7.6: whether two files hold the same triangles, each as often; slivers may be left out."""
+    return each_has_one(one, other, tolerance) and each_has_one(other, one, tolerance)
+
+
+def each_has_one(mine: list[Triangle], theirs: list[Triangle], tolerance: float) -> bool:
+    """Whether each triangle that needs a counterpart has one of its own."""
     index = TriangleIndex(theirs, tolerance)
-    free = Counter(range(len(theirs)))
+    free = [True] * len(theirs)
     for triangle in mine:
-        near = [place for place in index.near(triangle) if free[place]]
-        if near:
-            free[near[0]] -= 1
-        elif least_height(triangle) > 2 * tolerance:
-            return False
-    return all(not count or least_height(theirs[p]) <= 2 * tolerance for p, count in free.items())
+        if needs_counterpart(triangle, tolerance):
+            near = [place for place in index.near(triangle) if free[place]]
+            if not near:
+                return False
+            free[near[0]] = False
+    return True
 
 
 def planes_of(triangles: list[Triangle], least: float) -> list[tuple[Point, float, float]]:

@@ -8,6 +8,7 @@ from typing import Any
 
 from .faces import Face, Vertex, is_number, mirrors, placed
 from .geometry import (
+    NEEDED,
     RESOLUTION,
     Point,
     Triangle,
@@ -16,13 +17,15 @@ from .geometry import (
     close,
     largest_coordinate,
     least_height,
+    longest_side,
+    needs_counterpart,
     normal,
 )
 from .kinematics import position_of, rotation_of
 from .numeric import Matrix, add, cross, distance, dot, norm, sub, turned
 from .shapes_of_urdf import Shape
 
-TURNS_BACK = -1e-6  # 7.8
+TURNS_BACK = -0.999e-6  # 7.8: up to 1.001e-6, a face may be taken either way
 ONCE_ROUND = 1.5 * 2 * math.pi  # 7.8
 MAX_CUT_CORNERS = 10_000  # 7.8
 LARGE, SMALL = 1e-6, 1e-4  # 7.6
@@ -137,13 +140,17 @@ def is_cut(polygon: list[Point], found: list[Triangle], tolerance: float) -> boo
     inner = [edge for edge in edges if (edge[0] + 1) % len(polygon) != edge[1]]
     matched = all((end, start) in edges for start, end in inner)
     slivers = len(polygon) - 2 - len(found)
-    return (len(found) == len(polygon) - 2 and matched) or (slivers > 0 and covers(polygon, found))
+    if len(found) == len(polygon) - 2:
+        return matched
+    return slivers > 0 and covers(polygon, found, tolerance)
 
 
-def covers(polygon: list[Point], found: list[Triangle]) -> bool:
-    """Whether triangles have the area of a face, where those without height are left out."""
+def covers(polygon: list[Point], found: list[Triangle], tolerance: float) -> bool:
+    """Whether triangles have the area of a face, but for those that need not be there."""
     whole = norm(newell(polygon)) / 2
-    return abs(sum(area(triangle) for triangle in found) - whole) <= 1e-6 * whole
+    left_out = [(polygon[0], b, c) for b, c in zip(polygon[1:], polygon[2:])]
+    slack = NEEDED * tolerance / 2 * sum(longest_side(triangle) for triangle in left_out)
+    return abs(sum(area(triangle) for triangle in found) - whole) <= 1e-6 * whole + slack
 
 
 class PlainCheck:
@@ -156,7 +163,7 @@ class PlainCheck:
         largest += [mesh.largest for mesh in meshes] + [shape.extent for shape in shapes]
         extent = max(largest)
         self.tolerance = max(RESOLUTION * extent, min(LARGE, SMALL * extent))
-        self.plain = [t for t in plain if least_height(t) > self.tolerance]
+        self.plain = plain
         self.meshes = meshes
         self.shapes = shapes
 
@@ -166,7 +173,7 @@ class PlainCheck:
         for mesh in self.meshes:
             for triangle in mesh.triangles:
                 near = index.near(triangle)
-                if not near and least_height(triangle) > 3 * self.tolerance:
+                if not near and needs_counterpart(triangle, self.tolerance):
                     return False
                 for place in near:
                     matched[place] = True
@@ -182,19 +189,23 @@ class PlainCheck:
         for place, triangle in enumerate(self.plain):
             on = [any(close(p, corner, self.tolerance) for p in polygon) for corner in triangle]
             if all(on) and not matched[place]:
-                found.append(triangle)
                 matched[place] = True
+                if least_height(triangle) > self.tolerance:
+                    found.append(triangle)
         if crosses_itself(polygon) or len(polygon) > MAX_CUT_CORNERS:
             return True
         return is_cut(polygon, found, self.tolerance)
 
     def rest(self, matched: list[bool]) -> bool:
         """What is left are the triangles of boxes, cylinders, capsules and spheres."""
-        left = [t for t, is_matched in zip(self.plain, matched) if not is_matched]
+        left = [
+            triangle
+            for triangle, is_matched in zip(self.plain, matched)
+            if not is_matched and needs_counterpart(triangle, self.tolerance)
+        ]
         fits = [[shape.has(t, self.tolerance) for t in self.plain] for shape in self.shapes]
-        for is_matched, on in zip(matched, zip(*fits)):
-            if not is_matched and not any(on):
-                return False
+        if any(not any(shape.has(t, self.tolerance) for shape in self.shapes) for t in left):
+            return False
         allowed = sum(shape.area for shape in self.shapes)
         slack = self.tolerance * sum(
             distance(a, b) + distance(b, c) + distance(c, a) for a, b, c in left

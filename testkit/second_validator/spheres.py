@@ -24,6 +24,7 @@ FIRST = 2**31  # 8.9.6
 IN_OUTER = 1e-9  # 8.9.3
 COVERED = 1e-6  # 8.9.4
 LENGTHS = 1e-6  # 8.9.5
+LENGTHS_FAR = 1e-7  # 8.9.5
 FRACTIONS = 1e-4  # 8.9.5
 TOUCHING = 1e-9  # 8.9.6
 COUNTED = 10_000  # 8.9.7
@@ -106,6 +107,10 @@ def check_covering(urdd: Urdd, module: Any, meshes: list[list[list[Triangle]]]) 
                     error(urdd, "SPH005", f"/levels/{place}/spheres/{link}")
 
 
+def is_within(stated: float, found: tuple[float, float], tolerance: float) -> bool:
+    return found[0] - tolerance <= stated <= found[1] + tolerance
+
+
 def check_fits(urdd: Urdd, module: Any, meshes: list[list[list[Triangle]]]) -> None:
     """8.9.5."""
     for place, level in enumerate(module["levels"]):
@@ -116,14 +121,17 @@ def check_fits(urdd: Urdd, module: Any, meshes: list[list[list[Triangle]]]) -> N
             size = diagonal([p for piece in pieces for triangle in piece for p in triangle])
             key = tuple(tuple(piece) for piece in pieces)
             balls = balls_of(level["spheres"][link])
-            largest, mean = standoff(key, balls)
-            stated = (fit["max_standoff"] - largest, fit["mean_standoff"] - mean)
-            if any(not abs(off) <= LENGTHS * size for off in stated):
+            farthest = max(norm(p) for piece in pieces for triangle in piece for p in triangle)
+            length = max(LENGTHS * size, LENGTHS_FAR * farthest)
+            largest, mean = standoff(key, balls, size)
+            if not is_within(fit["max_standoff"], largest, length):
                 error(urdd, "SPH006", pointer)
-            fraction, farthest = uncovered(key, balls, size)
-            if not abs(fit["uncovered_fraction"] - fraction) <= FRACTIONS:
+            if not is_within(fit["mean_standoff"], mean, length):
+                error(urdd, "SPH006", pointer)
+            fraction, outermost = uncovered(key, balls, size)
+            if not is_within(fit["uncovered_fraction"], fraction, FRACTIONS):
                 error(urdd, "SPH007", pointer)
-            if not abs(fit["max_uncovered"] - farthest) <= LENGTHS * size:
+            if not is_within(fit["max_uncovered"], outermost, length):
                 error(urdd, "SPH007", pointer)
 
 
@@ -223,18 +231,21 @@ def links_touch(a: list[Body], b: list[Body], pose: Pose, other: Pose) -> bool:
     return False
 
 
-def check_counts(urdd: Urdd, level: Any, place: int, in_collision: list[bool], touch: Any) -> None:
-    """8.9.7."""
-    both = list(zip(in_collision, touch))
+def check_counts(
+    urdd: Urdd, level: Any, place: int, in_collision: list[bool], touch: list[list[bool]]
+) -> None:
+    """8.9.7. `touch` is where radii are smaller by the tolerance, and larger."""
+    tight, loose = [list(zip(in_collision, of)) for of in touch]
     colliding, free = in_collision.count(True), in_collision.count(False)
     right = {
-        "num_colliding": (colliding, len(both)),
-        "num_missed": (both.count((True, False)), colliding),
-        "num_free": (free, len(both)),
-        "num_false_contacts": (both.count((False, True)), free),
+        "num_colliding": (colliding, colliding, len(tight)),
+        "num_missed": (loose.count((True, False)), tight.count((True, False)), colliding),
+        "num_free": (free, free, len(tight)),
+        "num_false_contacts": (tight.count((False, True)), loose.count((False, True)), free),
     }
-    for key, (count, among) in right.items():
-        if abs(level["evaluation"][key] - count) > -(-among // COUNTED):
+    for key, (least, most, among) in right.items():
+        slack = -(-among // COUNTED)
+        if not least - slack <= level["evaluation"][key] <= most + slack:
             error(urdd, "SPH012", f"/levels/{place}/evaluation/{key}")
 
 
@@ -253,7 +264,11 @@ def check_samples(urdd: Urdd, robot: Robot, shapes: Shapes, module: Any) -> None
         pairs = [
             gaps[pair] for pair in asked - set(pairs_of(level["ignored_pairs"])) if pair in gaps
         ]
-        touch = [any(of[k] <= 0 for of in pairs) for k in range(count)]
+        slack = TOUCHING * 2 * robot.reach()
+        touch = [
+            [any(of[k] <= larger for of in pairs) for k in range(count)]
+            for larger in (-slack, slack)
+        ]
         check_counts(urdd, level, place, in_collision, touch)
 
 

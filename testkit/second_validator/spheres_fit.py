@@ -11,11 +11,13 @@ from .numeric import add, cross, distance, dot, norm, scaled, sub
 
 Ball = tuple[Point, float]
 Plane = tuple[Point, float]
+Least = tuple[float, float]  # and most, by what is undecided
 POINTS = 64  # 8.9.5
 TURN = 0.6180339887498949  # 8.9.5
 INSIDE = 1 - 1e-6  # 8.9.5
 PARTS = 15.7  # 8.9.5
 BEYOND = 1e-6  # 8.9.5
+UNDECIDED = 1e-10  # 8.9.5
 MOST_CORNERS = 2_000_000  # 8.9.7: beyond this, a piece is not verified
 
 
@@ -116,21 +118,31 @@ def from_piece(piece: tuple[Triangle, ...], planes: list[Plane], point: Point) -
 
 @functools.lru_cache(maxsize=4096)
 def standoff(
-    pieces: tuple[tuple[Triangle, ...], ...], balls: tuple[Ball, ...]
-) -> tuple[float, float]:
+    pieces: tuple[tuple[Triangle, ...], ...], balls: tuple[Ball, ...], size: float
+) -> tuple[Least, Least]:
     """8.9.5: the largest and the mean standoff."""
     planes = [planes_of_piece(piece) for piece in pieces]
-    largest = total = weights = 0.0
+    sure: list[tuple[float, float]] = []
+    free: list[tuple[float, float]] = []
     for place, ball in enumerate(balls):
         others = balls[:place] + balls[place + 1 :]
         for point in points_on(ball):
-            if any(distance(point, at) < INSIDE * radius for at, radius in others):
+            deep = max((INSIDE * radius - distance(point, at) for at, radius in others), default=-1)
+            if deep >= UNDECIDED * size:
                 continue
             apart = min(from_piece(piece, of, point) for piece, of in zip(pieces, planes))
-            largest = max(largest, apart)
-            total += ball[1] ** 2 * apart
-            weights += ball[1] ** 2
-    return largest, total / weights if weights else 0.0
+            (sure if deep <= -UNDECIDED * size else free).append((apart, ball[1] ** 2))
+    means = [mean(sure), mean(sure + free)]
+    largest = max((apart for apart, _ in sure + free), default=0.0)
+    weights = [sum(weight for _, weight in some) for some in (free, sure + free)]
+    slack = largest * weights[0] / weights[1] if weights[0] else 0.0
+    least = max((apart for apart, _ in sure), default=0.0)
+    return (least, largest), (min(means) - slack, max(means) + slack)
+
+
+def mean(weighted: list[tuple[float, float]]) -> float:
+    weights = sum(weight for _, weight in weighted)
+    return sum(value * weight for value, weight in weighted) / weights if weights else 0.0
 
 
 def centroids(triangle: Triangle, size: float) -> list[Point]:
@@ -150,8 +162,8 @@ def centroids(triangle: Triangle, size: float) -> list[Point]:
 @functools.lru_cache(maxsize=4096)
 def counted(
     pieces: tuple[tuple[Triangle, ...], ...], size: float
-) -> tuple[tuple[Point, float], ...]:
-    """8.9.5: the centroids that count, each with its weight."""
+) -> tuple[tuple[Point, float, bool], ...]:
+    """8.9.5: the centroids that may count, each with its weight, and whether it does."""
     planes = [planes_of_piece(piece) for piece in pieces]
     found = []
     for place, piece in enumerate(pieces):
@@ -161,23 +173,31 @@ def counted(
                 continue
             parts = centroids(triangle, size)
             for point in parts:
-                if not any(
-                    all(dot(n, point) < level - BEYOND * size for n, level in of) for of in others
-                ):
-                    found.append((point, area(triangle) / len(parts)))
+                depths = [
+                    min((level - dot(n, point) for n, level in of), default=-1) for of in others
+                ]
+                deep = max(depths, default=-1) - BEYOND * size
+                if deep < UNDECIDED * size:
+                    weight = area(triangle) / len(parts)
+                    found.append((point, weight, deep <= -UNDECIDED * size))
     return tuple(found)
 
 
 @functools.lru_cache(maxsize=4096)
 def uncovered(
     pieces: tuple[tuple[Triangle, ...], ...], balls: tuple[Ball, ...], size: float
-) -> tuple[float, float]:
+) -> tuple[Least, Least]:
     """8.9.5: the part of the surface outside of the spheres, and how far it is outside."""
-    outside = weights = farthest = 0.0
-    for point, weight in counted(pieces, size):
-        weights += weight
+    outside, weights, farthest = [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]
+    for point, weight, is_sure in counted(pieces, size):
+        weights[1] += weight
+        weights[0] += weight if is_sure else 0
         far = min(height(ball, point) for ball in balls)
-        if far > BEYOND * size:
-            outside += weight
-            farthest = max(farthest, far)
-    return outside / weights if weights else 0.0, farthest
+        beyond = far - BEYOND * size
+        for kind in range(2):
+            if beyond > UNDECIDED * size and is_sure or kind and beyond > -UNDECIDED * size:
+                outside[kind] += weight
+                farthest[kind] = max(farthest[kind], far)
+    least = outside[0] / weights[1] if weights[1] else 0.0
+    most = outside[1] / weights[0] if weights[0] else float(outside[1] > 0)
+    return (least, min(most, 1.0)), (farthest[0], farthest[1])

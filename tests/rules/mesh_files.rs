@@ -2,7 +2,7 @@
 
 mod bodies;
 mod glb;
-mod originals;
+pub mod originals;
 pub mod placed_scenes;
 mod polygons;
 mod prism;

@@ -71,7 +71,8 @@ impl Splitter {
             return;
         };
         let normal = area_normal(&places);
-        if corners.len() > MAX_CORNERS && !uncut || is_convex(&places, normal) {
+        let slack = if uncut { DISPUTED_SLACK } else { SLACK };
+        if corners.len() > MAX_CORNERS && !uncut || is_convex(&places, normal, slack) {
             fan(out);
             return;
         }
@@ -140,10 +141,13 @@ fn area_normal(places: &[Vector3<f64>]) -> Vector3<f64> {
     places[1..].windows(2).map(|pair| (pair[0] - origin).cross(&(pair[1] - origin))).sum()
 }
 
-/// Whether no corner turns against the polygon's normal by more than rounding.
-fn is_convex(places: &[Vector3<f64>], normal: Vector3<f64>) -> bool {
-    /// Sine of the turn-back angle below which corners count as collinear.
-    const SLACK: f64 = 1e-6;
+/// Sine of the turn-back angle up to which corners count as collinear.
+const SLACK: f64 = 1e-6;
+/// From here on, others may find that they do not (SPEC 7.8).
+const DISPUTED_SLACK: f64 = 0.999e-6;
+
+/// Whether no corner turns against the polygon's normal by a sine of more than `slack`.
+fn is_convex(places: &[Vector3<f64>], normal: Vector3<f64>, slack: f64) -> bool {
     let count = places.len();
     let length = normal.norm();
     let mut turned = 0.0;
@@ -152,7 +156,7 @@ fn is_convex(places: &[Vector3<f64>], normal: Vector3<f64>) -> bool {
         let after = places[(at + 1) % count] - places[at];
         let turn = before.cross(&after).dot(&normal);
         let scale = before.norm() * after.norm();
-        if turn < -SLACK * scale * length {
+        if turn < -slack * scale * length {
             return false;
         }
         if count > 4 && scale > 0.0 {

@@ -18,7 +18,7 @@ pub enum Likeness {
 pub struct Difference {
     /// Number of missing triangles.
     pub missing: usize,
-    /// Number of excess triangles.
+    /// The excess triangles.
     pub extra: Vec<usize>,
     /// Number of triangles facing the other way.
     pub turned: usize,
@@ -37,22 +37,31 @@ pub fn extent(mesh: &Mesh) -> f64 {
     places.fold(0.0, |most, place| place.into_iter().fold(most, larger))
 }
 
-/// The difference of a mesh from the expected one; `None` if there is none. Corners within `tolerance` are equal, and
-/// thinner triangles are ignored.
+/// A triangle needs a counterpart if its smallest height is more than this multiple of the tolerance (SPEC 7.6.1). Corners
+/// that agree are at most sqrt 3 tolerances apart, so heights of counterparts differ by at most 2 sqrt 3 of them: what is
+/// thinner than the tolerance in one mesh, and left out there, needs none in the other.
+const NEEDS_COUNTERPART: f64 = 5.0;
+
+/// Whether a triangle must be in a mesh that is compared with its own.
+pub fn needs_counterpart(corners: [[f64; 3]; 3], tolerance: f64) -> bool {
+    !is_thin(corners, NEEDS_COUNTERPART * tolerance)
+}
+
+/// The difference of a mesh from the expected one. Corners within `tolerance` are equal. Thin triangles need no
+/// counterpart, and may be one.
 pub fn difference(
     expected: &Mesh,
     actual: &Mesh,
     tolerance: f64,
     likeness: Likeness,
-) -> Option<Difference> {
+) -> Difference {
     if same_in_order(expected, actual, tolerance) {
-        return None;
+        return Difference::default();
     }
-    let difference = Matching::new(expected, actual, tolerance).difference(likeness);
-    (difference != Difference::default()).then_some(difference)
+    Matching::new(expected, actual, tolerance).difference(likeness)
 }
 
-/// Whether two meshes have the same triangles in the same order, apart from thin ones.
+/// Whether two meshes have the same triangles in the same order, apart from those that need no counterpart.
 fn same_in_order(a: &Mesh, b: &Mesh, tolerance: f64) -> bool {
     let near = |p: [f64; 3], q: [f64; 3]| (0..3).all(|i| (p[i] - q[i]).abs() <= tolerance);
     let (mut i, mut j) = (0, 0);
@@ -64,8 +73,8 @@ fn same_in_order(a: &Mesh, b: &Mesh, tolerance: f64) -> bool {
             {
                 (i, j) = (i + 1, j + 1);
             }
-            (Some(s), _) if is_thin(a.corners(*s), tolerance) => i += 1,
-            (_, Some(t)) if is_thin(b.corners(*t), tolerance) => j += 1,
+            (Some(s), _) if !needs_counterpart(a.corners(*s), tolerance) => i += 1,
+            (_, Some(t)) if !needs_counterpart(b.corners(*t), tolerance) => j += 1,
             _ => return false,
         }
     }
@@ -89,7 +98,19 @@ pub struct Matching<'a> {
 }
 
 /// Triangles on the same three points: their number in each mesh, by orientation.
-type Count = [[u32; 2]; 2];
+#[derive(Default)]
+struct Count {
+    all: [[u32; 2]; 2],
+    /// Those that need a counterpart.
+    needing: [[u32; 2]; 2],
+}
+
+impl Difference {
+    /// Whether the meshes differ.
+    pub fn is_any(&self) -> bool {
+        self.missing > 0 || self.turned > 0 || !self.extra.is_empty()
+    }
+}
 
 impl<'a> Matching<'a> {
     /// Merges the corners of the two meshes.
@@ -131,11 +152,8 @@ impl<'a> Matching<'a> {
         Matching { meshes, tolerance, places: [first, second] }
     }
 
-    /// The points of a triangle in ascending order, and its orientation; `None` if it is thin.
+    /// The points of a triangle in ascending order, and its orientation; `None` if two are one.
     fn key(&self, which: usize, triangle: [u32; 3]) -> Option<([u32; 3], usize)> {
-        if is_thin(self.meshes[which].corners(triangle), self.tolerance) {
-            return None;
-        }
         let [a, b, c] = triangle.map(|vertex| self.places[which][vertex as usize]);
         if a == b || b == c || c == a {
             return None;
@@ -147,11 +165,16 @@ impl<'a> Matching<'a> {
     }
 
     fn difference(&self, likeness: Likeness) -> Difference {
+        let needs = |which: usize, triangle: [u32; 3]| {
+            needs_counterpart(self.meshes[which].corners(triangle), self.tolerance)
+        };
         let mut counts: HashMap<[u32; 3], Count> = HashMap::new();
         for which in 0..2 {
             for triangle in &self.meshes[which].triangles {
                 if let Some((key, facing)) = self.key(which, *triangle) {
-                    counts.entry(key).or_default()[which][facing] += 1;
+                    let count = counts.entry(key).or_default();
+                    count.all[which][facing] += 1;
+                    count.needing[which][facing] += u32::from(needs(which, *triangle));
                 }
             }
         }
@@ -160,9 +183,12 @@ impl<'a> Matching<'a> {
         let mut lost = [Vec::new(), Vec::new()];
         for which in 0..2 {
             for (at, triangle) in self.meshes[which].triangles.iter().enumerate() {
+                if !needs(which, *triangle) {
+                    continue;
+                }
                 let Some((key, facing)) = self.key(which, *triangle) else { continue };
                 let Some(count) = counts.get_mut(&key) else { continue };
-                let (here, there) = (count[which], count[1 - which]);
+                let (here, there) = (&mut count.needing[which], count.all[1 - which]);
                 let (total_here, total_there) = (here[0] + here[1], there[0] + there[1]);
                 // Whether the other mesh lacks it, or has it with the other orientation.
                 let (differs, is_turned) = match likeness {
@@ -176,8 +202,7 @@ impl<'a> Matching<'a> {
                 if differs {
                     // Each excess one counts once.
                     if likeness == Likeness::SameTriangles {
-                        let facing = if count[which][facing] > 0 { facing } else { 1 - facing };
-                        count[which][facing] -= 1;
+                        here[if here[facing] > 0 { facing } else { 1 - facing }] -= 1;
                     }
                     match which {
                         0 => difference.missing += 1,

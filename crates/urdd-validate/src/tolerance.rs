@@ -117,6 +117,10 @@ pub const PIECE_OUT_OF_HULL: f64 = 0.02;
 /// Below this fraction, nothing is reported.
 pub const PIECE_BARELY_OUT_OF_HULL: f64 = 1e-4;
 
+/// A piece may reach out of its hull by this many resolutions, whatever the hull's diagonal: what has no width in binary32
+/// gets some, to be a body.
+pub const SPLINTER: f64 = 8.0;
+
 /// Tolerance of a normal in an STL file compared with that of the triangle's corners. Normals computed before the
 /// corners are rounded, or in binary32, differ by about 1e-6, more on small triangles.
 pub const STL_NORMAL: f64 = 1e-3;
@@ -189,6 +193,10 @@ pub const SPHERES_COVER: f64 = 1e-6;
 
 /// Lengths of the fit of spheres agree within this fraction of the diagonal of the box around the link's pieces.
 pub const FIT_LENGTH: f64 = 1e-6;
+
+/// Or within this fraction of the distance of the farthest vertex from the link's origin: a step of binary32. Distances are
+/// computed in that frame.
+pub const FIT_LENGTH_FAR: f64 = 1e-7;
 
 /// Fractions of the surface outside of spheres agree within this: a point or two of very many may be on either side.
 pub const FIT_FRACTION: f64 = 1e-4;

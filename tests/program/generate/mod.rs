@@ -12,6 +12,7 @@ mod outside;
 mod packages;
 mod pieces;
 mod shapes;
+mod slivers;
 mod stage_versions;
 mod strict;
 mod writing;

@@ -7,7 +7,9 @@ use urdd_geometry::read::Part;
 use urdd_geometry::write;
 use urdd_validate::code::Code::*;
 
-use super::{Number, least, most, number, there, wide};
+use super::{Number, Sides, least, most, number, sides, there, wide};
+use crate::mesh_files::originals::sliver_of;
+use crate::mesh_files::placed_scenes::base;
 use crate::mesh_files::{ALL, BASE, change_gltf, grow_piece, lone_box, path, put, read, rewrite};
 use crate::meshes::{HULLS, ORIGINAL, PIECES, PLAIN, boxy, robot_of};
 use testkit::fixture::{Fixture, ROOT};
@@ -66,6 +68,11 @@ fn raise_top(f: &mut Fixture, by: f64) {
             put(f, module, BASE, format, &mesh);
         }
     }
+}
+
+/// A sliver of this height in a body of 0.5 m.
+fn sliver(f: &mut Fixture, height: f64, holds: [bool; 4]) {
+    sliver_of(f, [1.0 / 64.0, 1.0 / 64.0 + height], holds);
 }
 
 /// Moves a vertex at z = 0 in the OBJ of link 0, whose largest coordinate is 0.08.
@@ -260,6 +267,28 @@ pub fn numbers() -> Vec<Number> {
             vec![most(MSH014, Fixture::toy, lift_in_one_format, RESOLUTION * 0.08)],
         ),
         number(
+            "counterpart",
+            "7.6.1",
+            "not more than 5 times the tolerance",
+            ("5", 5.0),
+            vec![
+                most(MSH015, base, |f, by| sliver(f, by, [true, false, false, false]), 5e-6),
+                most(MSH015, base, |f, by| sliver(f, by, [false, true, true, true]), 5e-6),
+                most(
+                    MSH014,
+                    base,
+                    |f, by| sliver(f, by, [true, true, true, false]),
+                    5.0 * 0.5 * RESOLUTION,
+                ),
+                most(
+                    MSH014,
+                    base,
+                    |f, by| sliver(f, by, [true, true, false, true]),
+                    5.0 * 0.5 * RESOLUTION,
+                ),
+            ],
+        ),
+        number(
             "placing-of-large-meshes",
             "7.6.1",
             "the larger of 8 * 2^-23 E",
@@ -289,6 +318,22 @@ pub fn numbers() -> Vec<Number> {
             vec![least(MSH015, Fixture::toy, nearly_convex, 1e-6)],
         ),
         number(
+            "convex-or-not",
+            "7.8",
+            "from 0.999e-6 to 1.001e-6",
+            ("0.999e-6", 0.999e-6),
+            vec![sides(MSH015, Fixture::toy, nearly_convex, 0.999e-6, [0.9985e-6, 0.9995e-6])],
+        ),
+        number(
+            "not-convex-or-convex",
+            "7.8",
+            "to 1.001e-6, a face",
+            ("1.001e-6", 1.001e-6),
+            vec![Sides::Elsewhere(
+                "beyond it, a fan differs from a cut by slivers that need no counterpart",
+            )],
+        ),
+        number(
             "outside-of-a-hull",
             "7.9",
             "the resolution times 1 + size / h",
@@ -315,6 +360,13 @@ pub fn numbers() -> Vec<Number> {
             "by more than 1e-4 of it",
             ("1e-4", 1e-4),
             vec![most(MSH023, lone_box, reach_out, 1e-4 * DIAGONAL)],
+        ),
+        number(
+            "splinter-out-of-hull",
+            "7.10",
+            "8 times the resolution of the hull",
+            ("8", 8.0),
+            vec![Sides::Elsewhere("the robots of tests/program/generate/slivers.rs")],
         ),
         number(
             "coverage",

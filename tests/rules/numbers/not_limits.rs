@@ -52,6 +52,10 @@ pub const NOT_LIMITS: &[(&str, &str)] = &[
     ("6.1.6", "at least some 8.6e-155, and at most some 1.3e154"),
     ("6.4.6", "a line of 180 links has paths of 1,976,340 links, one of 181 links 2,009,281"),
     ("7.6.1", "a scale of 0.001 is known to millionths"),
+    (
+        "7.6.1",
+        "up to 1.74 tolerances apart, so the heights of two counterparts differ by up to 3.47",
+    ),
     ("8.5", "within some 3e-6 of that length"),
     ("8.8.11", "z = 1.959963984540054"),
     ("10.3", "this makes [0, 1e-7]"),

@@ -116,9 +116,16 @@ pub fn numbers() -> Vec<Number> {
             ],
         ),
         number(
+            "lengths-of-a-far-fit",
+            "8.9.5",
+            "within 1e-7 of the distance of the pieces' farthest vertex",
+            ("1e-7", 1e-7),
+            vec![Sides::Elsewhere("the robots of tests/program/generate/slivers.rs")],
+        ),
+        number(
             "fraction-of-a-fit",
             "8.9.5",
-            "fractions within 1e-4",
+            "and fractions within 1e-4",
             ("1e-4", 1e-4),
             vec![most(
                 SPH007,
@@ -126,6 +133,13 @@ pub fn numbers() -> Vec<Number> {
                 |f, by| add(f, SPHERES, "/levels/2/fits/0/uncovered_fraction", by),
                 1e-4,
             )],
+        ),
+        number(
+            "undecided-by-rounding",
+            "8.9.5",
+            "a difference of less than 1e-10 D",
+            ("1e-10", 1e-10),
+            vec![most(SPH007, in_a_sphere, |f, more| set_outermost(f, 1e-6 + more), 1e-10)],
         ),
         number(
             "touching-spheres",

@@ -7,7 +7,11 @@ use urdd_geometry::surface::{Difference, Likeness, difference};
 const TOLERANCE: f64 = 1e-6;
 
 fn compare(a: &Mesh, b: &Mesh) -> Option<Difference> {
-    difference(a, b, TOLERANCE, Likeness::SameTriangles)
+    compare_as(a, b, Likeness::SameTriangles)
+}
+
+fn compare_as(a: &Mesh, b: &Mesh, likeness: Likeness) -> Option<Difference> {
+    Some(difference(a, b, TOLERANCE, likeness)).filter(Difference::is_any)
 }
 
 /// The triangles in reverse order, each with another first corner, without shared vertices.
@@ -53,12 +57,12 @@ fn a_triangle_too_many_too_few_or_turned_round_is_told() {
     more.triangles.push(more.triangles[3]);
     let found = compare(&mesh, &more).expect("a difference");
     assert_eq!((found.missing, found.extra.len(), found.turned), (0, 1, 0));
-    assert_eq!(difference(&mesh, &more, TOLERANCE, Likeness::SameSurface), None);
+    assert_eq!(compare_as(&mesh, &more, Likeness::SameSurface), None);
     let mut turned = shuffled(&mesh);
     turned.triangles[5].swap(0, 1);
     let found = compare(&mesh, &turned).expect("a difference");
     assert_eq!((found.missing, found.extra.len(), found.turned), (0, 0, 1));
-    let found = difference(&mesh, &turned, TOLERANCE, Likeness::SameSurface);
+    let found = compare_as(&mesh, &turned, Likeness::SameSurface);
     assert_eq!(found.expect("a difference").turned, 1);
 }
 
@@ -71,4 +75,43 @@ fn triangles_without_an_area_count_for_nothing() {
     more.triangles.push([first, first + 1, first + 2]);
     assert_eq!(compare(&mesh, &more), None);
     assert_eq!(compare(&more, &mesh), None);
+}
+
+/// A box, and a triangle of a height in tolerances beside it, which is moved up by some more.
+fn with_sliver(height: f64, up: f64) -> Mesh {
+    let mut mesh = cuboid([1.0, 2.0, 3.0]);
+    let first = mesh.vertices.len() as u32;
+    let [low, high] = [up, up + height].map(|z| 4.0 + z * TOLERANCE);
+    mesh.vertices.extend([[5.0, 5.0, low], [5.5, 5.0, low], [5.25, 5.0, high]]);
+    mesh.triangles.push([first, first + 1, first + 2]);
+    mesh
+}
+
+/// Corners that agree may make a triangle thin in one mesh alone. It is no less of a counterpart.
+#[test]
+fn a_counterpart_may_be_of_any_height() {
+    for likeness in [Likeness::SameTriangles, Likeness::SameSurface] {
+        for (one, other) in [(1.0 - 1e-9, 1.0 + 1e-9), (0.0, 1.9), (4.9, 5.1), (5.1, 6.9)] {
+            let (one, other) = (with_sliver(one, 0.0), shuffled(&with_sliver(other, -0.95)));
+            assert_eq!(compare_as(&one, &other, likeness), None);
+            assert_eq!(compare_as(&other, &one, likeness), None);
+        }
+    }
+}
+
+/// What another producer finds thinner than the tolerance, and leaves out, has up to 1 + 2 sqrt 3 = 4.46 here.
+#[test]
+fn a_triangle_of_five_tolerances_needs_no_counterpart() {
+    let mesh = cuboid([1.0, 2.0, 3.0]);
+    for likeness in [Likeness::SameTriangles, Likeness::SameSurface] {
+        for height in [0.9, 1.1, 4.46, 4.99] {
+            let more = with_sliver(height, 0.0);
+            assert_eq!(compare_as(&mesh, &more, likeness), None);
+            assert_eq!(compare_as(&more, &mesh, likeness), None);
+        }
+        let more = with_sliver(5.01, 0.0);
+        assert_eq!(compare_as(&more, &mesh, likeness).map(|found| found.missing), Some(1));
+        let found = compare_as(&mesh, &more, likeness).map(|found| found.extra.len());
+        assert_eq!(found, Some(1));
+    }
 }

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::expected::Expected;
 use crate::tolerance::placing_resolution;
 use urdd_geometry::Mesh;
-use urdd_geometry::surface::{self, Matching, is_thin};
+use urdd_geometry::surface::{self, Matching, needs_counterpart};
 
 /// Maximum number of triangles and pairs of edges that are looked at, for all faces of a link.
 const MAX_WORK: usize = 500_000_000;
@@ -161,13 +161,13 @@ fn fill(
     if left.len() > MAX_LEFT {
         return None;
     }
-    // Collinear corners may be left out: their triangles count for nothing.
+    // Collinear corners may be left out: their triangles need not be there.
     let place = |point: u32| places[&point].into();
     while let Some((&(a, b), _)) = left.iter().next() {
-        let thin = |(from, c): &&(u32, u32)| {
-            *from == b && is_thin([place(a), place(b), place(*c)], tolerance)
+        let spare = |(from, c): &&(u32, u32)| {
+            *from == b && !needs_counterpart([place(a), place(b), place(*c)], tolerance)
         };
-        let (_, c) = *left.keys().find(thin)?;
+        let (_, c) = *left.keys().find(spare)?;
         add(&mut left, b, a);
         add(&mut left, c, b);
         add(&mut left, a, c);

@@ -206,11 +206,9 @@ fn read(
     let tolerance = mesh_resolution(surface::extent(&mesh));
     for (at, other) in &meshes {
         // The fault of a broken file is enough.
-        if derived.files[*at].fault.is_none()
-            && let Some(difference) =
-                surface::difference(&mesh, other, tolerance, Likeness::SameTriangles)
-        {
-            derived.differences.push((*at, difference));
+        if derived.files[*at].fault.is_none() {
+            let difference = surface::difference(&mesh, other, tolerance, Likeness::SameTriangles);
+            derived.differences.extend(Some((*at, difference)).filter(|(_, of)| of.is_any()));
         }
     }
     derived.mesh_of = mesh_of;

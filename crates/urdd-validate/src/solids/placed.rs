@@ -15,7 +15,7 @@ use urdd_format::meshes::GeometryKind;
 use urdd_format::readable::metres;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_geometry::Mesh;
-use urdd_geometry::surface::{self, Likeness, is_thin};
+use urdd_geometry::surface::{self, Likeness, needs_counterpart};
 
 /// A link with a wrong mesh.
 #[derive(Debug)]
@@ -113,8 +113,7 @@ fn tolerance(expected: &Expected, found: &Mesh) -> f64 {
 /// The fault of a mesh and the tolerance; `None` if it is right.
 pub fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
     let tolerance = tolerance(expected, found);
-    let difference = surface::difference(&expected.mesh, found, tolerance, Likeness::SameSurface)
-        .unwrap_or_default();
+    let difference = surface::difference(&expected.mesh, found, tolerance, Likeness::SameSurface);
     let fault = || Some((derived::in_words(&difference), tolerance));
     if difference.missing > 0 || difference.turned > 0 {
         return fault();
@@ -126,24 +125,28 @@ pub fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
 }
 
 /// What is wrong with the triangles of the primitives: a corner off the surface, a face too far inside it, or too little
-/// or too much area.
+/// or too much area. Thin triangles need not be of a primitive, and may: small ones are made of them.
 fn primitives(
     expected: &Expected,
     found: &Mesh,
-    triangles: &[usize],
+    extra: &[usize],
     tolerance: f64,
 ) -> Option<String> {
+    let is_thin = |at: &usize| !needs_counterpart(found.corners(found.triangles[*at]), tolerance);
+    let thin: Vec<usize> = (0..found.triangles.len()).filter(is_thin).collect();
+    let count = extra.len() + thin.len();
+    let triangles = extra.iter().map(|at| (at, true)).chain(thin.iter().map(|at| (at, false)));
     let mut areas = vec![0.0; expected.primitives.len()];
     let mut total = 0.0;
     // With many triangles and shapes, only some triangles are compared with all shapes; their area counts in full.
-    let every = step(triangles.len(), expected.primitives.len());
-    for (number, at) in triangles.iter().enumerate() {
+    let every = step(count, expected.primitives.len());
+    for (number, (at, is_extra)) in triangles.enumerate() {
         let corners = found.corners(found.triangles[*at]);
         let vectors = corners.map(nalgebra::Vector3::from);
         let [a, b, c] = vectors;
         let area = (b - a).cross(&(c - a)).norm() / 2.0;
         let middle: [f64; 3] = ((a + b + c) / 3.0).into();
-        total += area;
+        total += if is_extra { area } else { 0.0 };
         if number % every != 0 {
             continue;
         }
@@ -158,7 +161,7 @@ fn primitives(
                 *sum += area;
             }
         }
-        if !on_any {
+        if is_extra && !on_any {
             return Some(off_surface(expected, corners, middle));
         }
     }
@@ -217,9 +220,9 @@ pub fn are_apart(expected: &Mesh, found: &Mesh, tolerance: f64) -> bool {
             && !expected.vertices.iter().any(|q| *p != q && near(p, q))
     };
     let triangles = expected.triangles.iter();
-    let thick = triangles
+    let needed = triangles
         .map(|triangle| expected.corners(*triangle))
-        .filter(|corners| !is_thin(*corners, tolerance));
+        .filter(|corners| needs_counterpart(*corners, tolerance));
     // With two such corners, none of the three is merged with another, and the triangle counts.
-    thick.take(TRIANGLES).any(|corners| corners.iter().filter(is_alone).count() >= 2)
+    needed.take(TRIANGLES).any(|corners| corners.iter().filter(is_alone).count() >= 2)
 }

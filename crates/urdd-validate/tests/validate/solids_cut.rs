@@ -30,7 +30,7 @@ fn accepts(triangles: &[[u32; 3]]) -> bool {
     found.triangles = triangles.to_vec();
     found.triangles.push([2, 4, 3]);
     as_found(expected, &found).is_some_and(|cut| {
-        surface::difference(&cut.mesh, &found, 1e-6, surface::Likeness::SameSurface).is_none()
+        !surface::difference(&cut.mesh, &found, 1e-6, surface::Likeness::SameSurface).is_any()
     })
 }
 

@@ -321,7 +321,7 @@ fn contacts_are_the_same_for_any_threads() {
     assert_eq!(found[0], found[1]);
     assert_eq!(found[0][0].1.len(), 1_000);
     // Settled pairs are asked again: the first level touches in as many configurations as all pairs at once.
-    let touches = found[0][0].1.iter().filter(|touches| **touches).count();
+    let touches = found[0][0].1.iter().filter(|touches| **touches == [true; 2]).count();
     assert_eq!(touches, 1_000, "arm and tip are always in contact");
 }
 
@@ -335,4 +335,32 @@ fn figures_of_the_base_are_those_of_boxes() {
     let [max, mean, fraction, farthest] = testkit::spheres::fit(tip, balls);
     assert!(max > 0.0 && mean > 0.0 && farthest > 0.0 && diagonal(tip) > 0.3);
     assert!((0.5..1.0).contains(&fraction));
+}
+
+/// Of the post and the camera, which do not move to each other.
+#[test]
+fn a_touch_that_rounding_decides_may_be_counted_either_way() {
+    let folder = testkit::temporary::folder();
+    fixture().write_to(folder.path());
+    let urdd = Urdd::read(folder.path()).expect("a URDD");
+    let Some(ModuleDocument::LinkShapesSpheres(module)) =
+        urdd.document(ModuleKind::LinkShapesSpheres)
+    else {
+        panic!("no spheres");
+    };
+    let poses = Poses::new(&urdd).expect("poses");
+    for (larger, expected) in [(0.0, [false, true]), (1e-8, [true; 2]), (-1e-8, [false; 2])] {
+        let mut module = (**module).clone();
+        let level = &mut module.levels[2];
+        // Its sphere of 0.105 m is at (0, 0, 0.01), and the camera's frame at (-0.8, 0, 0).
+        let mut camera = level.spheres[0][0].clone();
+        camera.offset_xyz = [0.8 - 0.105 - 0.045, 0.0, 0.01];
+        camera.radius = 0.045 + larger;
+        level.spheres[1..5].iter_mut().for_each(Vec::clear);
+        level.spheres[5] = vec![camera];
+        let asked = |level: usize, _| level == 2;
+        let found = contacts(&module, &poses, 2e-9, asked, &Budget::of_spheres(false));
+        let found = found.expect("little work");
+        assert!(found[2].touches.iter().all(|touches| *touches == expected), "{larger}");
+    }
 }

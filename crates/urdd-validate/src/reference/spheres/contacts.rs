@@ -27,11 +27,9 @@ const SPLIT: usize = 32;
 
 /// Two links are in contact, where the radii of two spheres are together smaller by the tolerance.
 const TIGHT: u8 = 1;
-/// With the radii that the spheres have.
-const TOUCH: u8 = 2;
 /// Where they are larger by the tolerance.
-const LOOSE: u8 = 4;
-const ALL: u8 = TIGHT | TOUCH | LOOSE;
+const LOOSE: u8 = 2;
+const ALL: u8 = TIGHT | LOOSE;
 
 /// The spheres of a link in a level, and one around them.
 struct Link {
@@ -79,8 +77,8 @@ pub struct PairFound {
 pub struct LevelFound {
     /// All pairs of links with spheres, ascending.
     pub pairs: Vec<PairFound>,
-    /// For each configuration, whether the level touches.
-    pub touches: Vec<bool>,
+    /// For each configuration, whether the level touches: surely, and within the tolerance.
+    pub touches: Vec<[bool; 2]>,
 }
 
 /// A pair of links of a level, and what is known of it.
@@ -123,13 +121,8 @@ impl Level {
         self.asked = (0..pairs.len()).filter(|at| settled(at) && pairs[*at].is_checked).collect();
     }
 
-    /// Adds what the pairs are in a configuration. Returns whether the level touches, and the work.
-    fn look(
-        &self,
-        poses: &[Isometry3<f64>],
-        tolerance: f64,
-        seen: &mut [(u8, u8)],
-    ) -> (bool, usize) {
+    /// Adds what the pairs are in a configuration. Returns how the level touches, and the work.
+    fn look(&self, poses: &[Isometry3<f64>], tolerance: f64, seen: &mut [(u8, u8)]) -> (u8, usize) {
         let mut work = 5 * (self.open.len() + self.asked.len());
         let mut placed: Vec<Option<Placed>> = Vec::new();
         placed.resize_with(self.links.len(), || None);
@@ -144,15 +137,20 @@ impl Level {
                 pair.places.map(|place| placed[place].as_ref().map(|at| (&self.links[place], at)));
             a.zip(b).map_or(0, |(a, b)| contact(a, b, tolerance, &mut work))
         };
-        let mut touches = false;
+        let mut touches = 0;
         for at in &self.open {
             let pair = &self.pairs[*at];
             let found = contact(pair);
             seen[*at].0 |= found;
             seen[*at].1 &= found;
-            touches |= pair.is_checked && found & TOUCH != 0;
+            touches |= if pair.is_checked { found } else { 0 };
         }
-        touches |= !touches && self.asked.iter().any(|at| contact(&self.pairs[*at]) & TOUCH != 0);
+        for at in &self.asked {
+            if touches == ALL {
+                break;
+            }
+            touches |= contact(&self.pairs[*at]);
+        }
         (touches, work)
     }
 }
@@ -196,7 +194,7 @@ fn contact(
             if gap <= -tolerance {
                 return ALL;
             }
-            found |= if gap <= 0.0 { TOUCH } else { 0 } | if gap <= tolerance { LOOSE } else { 0 };
+            found |= if gap <= tolerance { LOOSE } else { 0 };
         }
     }
     found
@@ -261,7 +259,7 @@ pub fn contacts(
         let open = (0..pairs.len()).collect();
         levels.push(Level { links, pairs, open, asked: Vec::new() });
     }
-    let mut touches: Vec<Vec<bool>> = vec![Vec::new(); levels.len()];
+    let mut touches: Vec<Vec<[bool; 2]>> = vec![Vec::new(); levels.len()];
     let count = module.num_samples.0;
     for start in (0..count).step_by(AT_ONCE as usize) {
         let seen = look_at(
@@ -280,7 +278,8 @@ pub fn contacts(
         }
         for touched in seen.touches {
             for (of_level, touches) in touches.iter_mut().enumerate() {
-                touches.push(touched >> of_level & 1 == 1);
+                let by = |kind: u8| touched[of_level] & kind != 0;
+                touches.push([by(TIGHT), by(LOOSE)]);
             }
         }
     }
@@ -298,8 +297,8 @@ pub fn contacts(
 struct Seen {
     /// For each pair of each level, what it was in any of them, and in all.
     pairs: Vec<Vec<(u8, u8)>>,
-    /// For each of them, a bit for each level that touches.
-    touches: Vec<u32>,
+    /// For each of them, how each level touches.
+    touches: Vec<Vec<u8>>,
 }
 
 fn look_at(
@@ -316,10 +315,10 @@ fn look_at(
     let add = |mut seen: Seen, sample: u32| {
         let (_, poses) = poses.sampled(SPHERES_FIRST.wrapping_add(sample))?;
         let mut work = 2_000 + 50 * poses.len();
-        let mut touched = 0;
-        for (number, (level, seen)) in levels.iter().zip(&mut seen.pairs).enumerate() {
+        let mut touched = Vec::with_capacity(levels.len());
+        for (level, seen) in levels.iter().zip(&mut seen.pairs) {
             let (touches, looked) = level.look(&poses, tolerance, seen);
-            touched |= u32::from(touches) << number;
+            touched.push(touches);
             work += looked;
         }
         seen.touches.push(touched);

@@ -64,6 +64,12 @@ impl<'a> LinkPieces<'a> {
         let high = vertices().fold(first, |high, vertex| high.sup(vertex));
         Some(LinkPieces { meshes, solids, diagonal: (high - low).norm() })
     }
+
+    /// The distance of the farthest vertex from the link's origin, m.
+    pub fn farthest(&self) -> f64 {
+        let vertices = self.solids.iter().flat_map(|solid| &solid.vertices);
+        vertices.map(Vector3::norm).fold(0.0, f64::max)
+    }
 }
 
 /// A triangle and its plane.
@@ -174,19 +180,26 @@ const INSIDE: f64 = 1.0 - 1e-6;
 const PARTS: f64 = 15.7;
 /// Outside of the spheres, or beneath planes of another piece, by more than this part of the diagonal.
 const BEYOND: f64 = 1e-6;
+/// What is decided by less than this part of the diagonal may be decided otherwise.
+const UNDECIDED: f64 = 1e-10;
 
-/// The largest and the mean distance of points on spheres from the pieces, m.
+/// The largest and the mean distance of points on spheres from the pieces, m: least and most, by what is undecided.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Standoff {
-    pub max: f64,
-    pub mean: f64,
+    pub max: [f64; 2],
+    pub mean: [f64; 2],
 }
 
-/// The part of the surface that is outside of the spheres, and how far, m.
+/// The part of the surface that is outside of the spheres, and how far, m: least and most, by what is undecided.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Uncovered {
-    pub fraction: f64,
-    pub max: f64,
+    pub fraction: [f64; 2],
+    pub max: [f64; 2],
+}
+
+/// A part of a whole; 0 where there is nothing.
+fn part(of: f64, whole: f64) -> f64 {
+    if whole > 0.0 { of / whole } else { 0.0 }
 }
 
 /// The directions in which there are points on a sphere.
@@ -212,7 +225,9 @@ pub fn standoff(
 ) -> Result<Standoff, SkipReason> {
     let directions = directions();
     let triangles: usize = pieces.solids.iter().map(|solid| solid.faces.len()).sum();
-    let (mut max, mut sum, mut weights) = (0.0_f64, 0.0, 0.0);
+    let undecided = UNDECIDED * pieces.diagonal;
+    // Of the points that count, and of those that may.
+    let (mut max, mut sum, mut weights) = ([0.0_f64; 2], [0.0; 2], [0.0; 2]);
     for (place, ball) in balls.iter().enumerate() {
         let reaches = |(other, of): (usize, &Ball)| {
             let near = (of.centre - ball.centre).norm() < of.radius + ball.radius;
@@ -223,17 +238,25 @@ pub fn standoff(
         budget.spend((balls.len() + POINTS as usize * point) as u64)?;
         for direction in &directions {
             let point = ball.centre + direction * ball.radius;
-            if others.iter().any(|of| (point - of.centre).norm() < INSIDE * of.radius) {
+            let depth = |of: &Ball| INSIDE * of.radius - (point - of.centre).norm();
+            let depth = others.iter().map(depth).fold(f64::NEG_INFINITY, f64::max);
+            if depth >= undecided {
                 continue;
             }
             let solids = pieces.solids.iter();
             let nearest = solids.fold(f64::INFINITY, |limit, solid| solid.distance(&point, limit));
-            max = max.max(nearest);
-            sum += ball.radius * ball.radius * nearest;
-            weights += ball.radius * ball.radius;
+            for kind in usize::from(depth > -undecided)..2 {
+                max[kind] = max[kind].max(nearest);
+                sum[kind] += ball.radius * ball.radius * nearest;
+                weights[kind] += ball.radius * ball.radius;
+            }
         }
     }
-    Ok(Standoff { max, mean: if weights > 0.0 { sum / weights } else { 0.0 } })
+    // A part of the mean may come and go, of any standoff up to the largest.
+    let free = part(weights[1] - weights[0], weights[1]) * max[1];
+    let means = [0, 1].map(|kind| part(sum[kind], weights[kind]));
+    let mean = [means[0].min(means[1]) - free, means[0].max(means[1]) + free];
+    Ok(Standoff { max, mean })
 }
 
 /// The corners of a triangle, and its unit normal.
@@ -248,7 +271,7 @@ pub fn uncovered(
     levels: &[Vec<Ball>],
     budget: &Budget,
 ) -> Result<Vec<Uncovered>, SkipReason> {
-    let beyond = BEYOND * pieces.diagonal;
+    let [beyond, undecided] = [BEYOND, UNDECIDED].map(|part| part * pieces.diagonal);
     let triangles = pieces.meshes.iter().map(|mesh| {
         let triangles = mesh.triangles.iter();
         let triangles = triangles.map(|triangle| mesh.corners(*triangle).map(Vector3::from));
@@ -259,9 +282,10 @@ pub fn uncovered(
     let beneath = |(corners, normal): &Triangle| (*normal, normal.dot(&corners[0]) - beyond);
     let planes = triangles.iter().map(|of| of.iter().map(beneath).collect());
     let planes: Vec<Vec<(Vector3<f64>, f64)>> = planes.collect();
-    let mut found = vec![Uncovered { fraction: 0.0, max: 0.0 }; levels.len()];
+    let mut found = vec![Uncovered { fraction: [0.0; 2], max: [0.0; 2] }; levels.len()];
     let mut last = vec![0; levels.len()];
-    let mut all = 0.0;
+    // The weight of the centroids that count, and of those that may.
+    let mut all = [0.0; 2];
     for (own, triangles) in triangles.iter().enumerate() {
         for (corners, _) in triangles {
             let [a, b, c] = corners;
@@ -271,36 +295,49 @@ pub fn uncovered(
             budget.spend((n * n) as u64 * (10 + 10 * planes.len() as u64))?;
             let mut work = 0;
             for point in centroids(corners, n as u32) {
-                let mut inside = |(piece, planes): (usize, &Vec<(Vector3<f64>, f64)>)| {
+                // How deep the point is in a piece, as far as that decides whether it counts.
+                let mut depth = f64::NEG_INFINITY;
+                for (piece, planes) in planes.iter().enumerate() {
                     let solid = &pieces.solids[piece];
                     let far = (point - solid.centre).norm() > solid.radius;
-                    piece != own && !far && !planes.is_empty() && {
-                        let above =
-                            |(normal, offset): &(Vector3<f64>, f64)| normal.dot(&point) >= *offset;
-                        let first = planes.iter().position(above);
-                        work += 2 * first.unwrap_or(planes.len());
-                        first.is_none()
+                    if piece == own || far || planes.is_empty() {
+                        continue;
                     }
-                };
-                let is_inside = planes.iter().enumerate().any(&mut inside);
-                if is_inside {
+                    let depths = planes.iter().map(|(normal, offset)| offset - normal.dot(&point));
+                    let mut least = f64::INFINITY;
+                    for of_plane in depths {
+                        work += 2;
+                        least = least.min(of_plane);
+                        if least <= depth.max(-undecided) {
+                            break;
+                        }
+                    }
+                    depth = depth.max(least);
+                }
+                if depth >= undecided {
                     continue;
                 }
-                all += weight;
+                let counts = usize::from(depth > -undecided);
+                all[1] += weight;
+                all[0] += if counts == 0 { weight } else { 0.0 };
                 for ((balls, found), last) in levels.iter().zip(&mut found).zip(&mut last) {
-                    let (height, looked) = lowest(&point, balls, last, beyond);
+                    let (height, looked) = lowest(&point, balls, last, beyond - undecided);
                     work += 3 * looked;
-                    if height > beyond {
-                        found.fraction += weight;
-                        found.max = found.max.max(height);
+                    if height > beyond - undecided {
+                        let from = counts.max(usize::from(height <= beyond + undecided));
+                        for kind in from..2 {
+                            found.fraction[kind] += weight;
+                            found.max[kind] = found.max[kind].max(height);
+                        }
                     }
                 }
             }
             budget.spend(work as u64)?;
         }
     }
-    for found in &mut found {
-        found.fraction = if all > 0.0 { found.fraction / all } else { 0.0 };
+    for Uncovered { fraction: [least, most], .. } in &mut found {
+        *least = part(*least, all[1]);
+        *most = if *most > 0.0 { (*most / all[0]).min(1.0) } else { 0.0 };
     }
     Ok(found)
 }

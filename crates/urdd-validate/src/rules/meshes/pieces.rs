@@ -79,7 +79,7 @@ fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()> {
     for (piece, outside) in pieces.iter().zip(outside) {
         let (Some(out), Some(hull)) = (outside, hulls.get(&piece.link)) else { continue };
         let [least, most] = [PIECE_BARELY_OUT_OF_HULL, PIECE_OUT_OF_HULL]
-            .map(|fraction| out.tolerance.max(fraction * hull.diagonal));
+            .map(|fraction| (SPLINTER * out.tolerance).max(fraction * hull.diagonal));
         let tolerance = match how {
             How::Far if out.distance > most => most,
             How::Barely if out.distance > least && out.distance <= most => least,

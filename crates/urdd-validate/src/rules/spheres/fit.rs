@@ -103,7 +103,7 @@ fn do_not_cover(context: &Context, findings: &mut Findings) -> Option<()> {
 
 fn standoff_differs(context: &Context, findings: &mut Findings) -> Option<()> {
     report(context, findings, |pieces, levels, budget| {
-        let tolerance = FIT_LENGTH * pieces.diagonal;
+        let tolerance = (FIT_LENGTH * pieces.diagonal).max(FIT_LENGTH_FAR * pieces.farthest());
         let of_level = |balls: &Vec<Ball>| {
             let Standoff { max, mean } = standoff(pieces, balls, budget)?;
             Ok([
@@ -117,7 +117,7 @@ fn standoff_differs(context: &Context, findings: &mut Findings) -> Option<()> {
 
 fn uncovered_differs(context: &Context, findings: &mut Findings) -> Option<()> {
     report(context, findings, |pieces, levels, budget| {
-        let tolerance = FIT_LENGTH * pieces.diagonal;
+        let tolerance = (FIT_LENGTH * pieces.diagonal).max(FIT_LENGTH_FAR * pieces.farthest());
         let figures = |Uncovered { fraction, max }| {
             let part = (FIT_FRACTION, "1");
             [
@@ -129,11 +129,11 @@ fn uncovered_differs(context: &Context, findings: &mut Findings) -> Option<()> {
     })
 }
 
-/// A figure of a link in a level: what is stated, what was found, and how far they may be apart.
+/// A figure of a link in a level: what is stated, what was found, least and most, and how far they may be apart.
 struct Figure {
     key: &'static str,
     stated: fn(&SphereFit) -> f64,
-    found: f64,
+    found: [f64; 2],
     tolerance: f64,
     unit: &'static str,
 }
@@ -142,7 +142,7 @@ impl Figure {
     fn of(
         key: &'static str,
         stated: fn(&SphereFit) -> f64,
-        found: f64,
+        found: [f64; 2],
         (tolerance, unit): (f64, &'static str),
     ) -> Self {
         Figure { key, stated, found, tolerance, unit }
@@ -175,6 +175,7 @@ fn report(
         let fit = module.levels.get(level).and_then(|level| level.fits.get(link)?.as_ref());
         for Figure { key, stated, found, tolerance, unit } in figures {
             let stated = fit.map_or(f64::NAN, stated);
+            let found = stated.max(found[0]).min(found[1]);
             // NaN is reported too.
             if (found - stated).abs() <= tolerance {
                 continue;

@@ -216,20 +216,22 @@ fn counts_differ(context: &Context, findings: &mut Findings) -> Option<()> {
     let budget = Budget::of_spheres(context.deep);
     let collides = findings.or_skip(collisions(&pieces, &poses, samples, &budget))?;
     for (place, (level, found)) in module.levels.iter().zip(levels).enumerate() {
-        let both = || collides.iter().zip(&found.touches);
-        let count = |wanted: (bool, bool)| {
-            let counted = both().filter(|(collides, touches)| (**collides, **touches) == wanted);
-            counted.count() as u32
+        // Least and most, by what is undecided.
+        let touching = |collided: bool| {
+            let both = || collides.iter().zip(&found.touches).filter(|(of, _)| **of == collided);
+            let [least, most] = [0, 1].map(|kind| both().filter(|(_, touch)| touch[kind]).count());
+            [least as u32, most as u32, both().count() as u32]
         };
-        let (missed, seen) = (count((true, false)), count((true, true)));
-        let (free, alarms) = (count((false, false)) + count((false, true)), count((false, true)));
+        let ([least, most, colliding], [alarms, most_alarms, free]) =
+            (touching(true), touching(false));
         let stated = &level.evaluation;
         for (key, stated, found, among) in [
-            ("num_colliding", stated.num_colliding, missed + seen, samples),
-            ("num_missed", stated.num_missed, missed, missed + seen),
-            ("num_free", stated.num_free, free, samples),
-            ("num_false_contacts", stated.num_false_contacts, alarms, free),
+            ("num_colliding", stated.num_colliding, [colliding; 2], samples),
+            ("num_missed", stated.num_missed, [colliding - most, colliding - least], colliding),
+            ("num_free", stated.num_free, [free; 2], samples),
+            ("num_false_contacts", stated.num_false_contacts, [alarms, most_alarms], free),
         ] {
+            let found = stated.0.clamp(found[0], found[1]);
             let pointer = format!("/levels/{place}/evaluation/{key}");
             let both = [stated, Count(found)];
             report_counted_again(Kind::LinkShapesSpheres, pointer, both, among, findings);
