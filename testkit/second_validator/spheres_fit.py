@@ -17,7 +17,7 @@ TURN = 0.6180339887498949  # 8.9.5
 INSIDE = 1 - 1e-6  # 8.9.5
 PARTS = 15.7  # 8.9.5
 BEYOND = 1e-6  # 8.9.5
-UNDECIDED = 1e-9  # 8.9.5
+UNDECIDED = 1e-10  # 8.9.5
 MOST_CORNERS = 2_000_000  # 8.9.7: beyond this, a piece is not verified
 
 

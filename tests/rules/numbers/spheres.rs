@@ -137,9 +137,9 @@ pub fn numbers() -> Vec<Number> {
         number(
             "undecided-by-rounding",
             "8.9.5",
-            "a difference of less than 1e-9 D",
-            ("1e-9", 1e-9),
-            vec![most(SPH007, in_a_sphere, |f, more| set_outermost(f, 1e-6 + more), 1e-9)],
+            "a difference of less than 1e-10 D",
+            ("1e-10", 1e-10),
+            vec![most(SPH007, in_a_sphere, |f, more| set_outermost(f, 1e-6 + more), 1e-10)],
         ),
         number(
             "touching-spheres",

@@ -181,7 +181,7 @@ const PARTS: f64 = 15.7;
 /// Outside of the spheres, or beneath planes of another piece, by more than this part of the diagonal.
 const BEYOND: f64 = 1e-6;
 /// What is decided by less than this part of the diagonal may be decided otherwise.
-const UNDECIDED: f64 = 1e-9;
+const UNDECIDED: f64 = 1e-10;
 
 /// The largest and the mean distance of points on spheres from the pieces, m: least and most, by what is undecided.
 #[derive(Debug, Clone, Copy, PartialEq)]
