@@ -123,21 +123,12 @@ fn a_package_takes_a_stated_multiple_of_memory() {
         fs::write(folder.path().join("r.urdf"), &urdf).unwrap();
         fs::write(folder.path().join(file), &text).unwrap();
         let limit = OWN + 100 * (urdf.len() + text.len()) + (64 << 20);
-        let lint = urdd(limit, &["lint", "r.urdf", "--format", "json"], folder.path());
-        assert_eq!(
-            lint.status.code(),
-            Some(1),
-            "{file}: {:?}",
-            String::from_utf8_lossy(&lint.stderr)
-        );
         let made = ["generate", "r.urdf", "-o", "r", "--force", "--modules", "original_meshes"];
-        let made = urdd(limit, &made, folder.path());
-        assert_eq!(
-            made.status.code(),
-            Some(0),
-            "{file}: {:?}",
-            String::from_utf8_lossy(&made.stderr)
-        );
+        for arguments in [["lint", "r.urdf"].as_slice(), &made] {
+            let output = urdd(limit, arguments, folder.path());
+            let ended = output.status.code().is_some_and(|status| status < 2);
+            assert!(ended, "{file}, {arguments:?}: {output:?}");
+        }
         fs::remove_file(folder.path().join(file)).unwrap();
     }
 }

@@ -1,5 +1,6 @@
 //! Resolves a mesh file name of a URDF to a file.
 
+use std::cell::Cell;
 use std::path::{Component, Path, PathBuf};
 
 use percent_encoding::percent_decode_str;
@@ -243,8 +244,7 @@ impl Search<'_> {
         let mut near_package = None;
         if folders.is_empty() {
             self.not_found.no_package.get_or_insert(package.to_owned());
-            let (account, mut stopped) = (self.account, None);
-            let stopped = std::cell::Cell::new(stopped.take());
+            let (account, stopped) = (self.account, Cell::new(None));
             near_package = around.near(package, |folder| {
                 let charged = account.charge(LOOK_UP).map_err(|why| stopped.set(Some(why)));
                 charged.is_ok() && !rest.is_empty() && files.is_file(&folder.join(rest))
