@@ -23,9 +23,7 @@ fn a_robot_beyond_its_limits_is_stopped_or_left_behind_and_others_are_not() {
                 std::thread::yield_now();
             }
         });
-        let stuck = watched(&run, "stuck", move |_| {
-            let _ = wait.lock().unwrap().recv();
-        });
+        let stuck = watched(&run, "stuck", move |_| wait.lock().unwrap().recv().is_err());
         is_done.store(true, Ordering::Relaxed);
         assert_eq!(stuck, Err(limit));
     });
