@@ -448,26 +448,32 @@ fn usd(draw: &mut Draw) {
             }
             6 => {
                 let numbers = draw.many("numbers", |_| "1, ".to_owned());
-                inside += &format!("rel mjc:target = </bot/j>\ndouble[] mjc:gainPrm = [{numbers}]\n");
+                inside +=
+                    &format!("rel mjc:target = </bot/j>\ndouble[] mjc:gainPrm = [{numbers}]\n");
                 kind = "MjcActuator";
             }
             7 => inside += &draw.many("attributes", |number| format!("int {attribute}{number}\n")),
-            8 => inside += &draw.many("children", |number| format!("def Cube \"k{number}\" {{}}\n")),
+            8 => {
+                inside += &draw.many("children", |number| format!("def Cube \"k{number}\" {{}}\n"))
+            }
             9 => {
                 let sets = draw.many("variant sets", |number| {
                     format!("variantSet \"v{number}\" = {{\n\"a\" {{}}\n}}\n")
                 });
                 let count = sets.matches("variantSet").count().min(900);
-                let names: Vec<String> = (0..count).map(|number| format!("\"v{number}\"")).collect();
+                let names: Vec<String> =
+                    (0..count).map(|number| format!("\"v{number}\"")).collect();
                 let chosen: String =
                     (0..count).map(|number| format!("string v{number} = \"a\"\n")).collect();
-                metadata += &format!("variantSets = [{}]\nvariants = {{\n{chosen}}}\n", names.join(", "));
+                metadata +=
+                    &format!("variantSets = [{}]\nvariants = {{\n{chosen}}}\n", names.join(", "));
                 inside += &sets;
             }
             10 => {
                 let count = draw.dice.below(900);
                 draw.said.push(format!("one sublayer {count} times"));
-                let layer = draw.many("prims of a layer", |number| format!("def Xform \"l{number}\" {{}}\n"));
+                let layer = draw
+                    .many("prims of a layer", |number| format!("def Xform \"l{number}\" {{}}\n"));
                 draw.file("b.usda", format!("#usda 1.0\n{layer}"));
                 top += &format!("subLayers = [{}]\n", "@b.usda@, ".repeat(count));
             }
@@ -490,7 +496,9 @@ fn usd(draw: &mut Draw) {
             }
             14 => {
                 let words = draw.many("letters of a file", |_| "letter".to_owned());
-                inside += &format!("asset file = @{words}@\ntoken mjc:gainType = \"{words}\"\nrel mjc:target = </bot/j>\n");
+                inside += &format!(
+                    "asset file = @{words}@\ntoken mjc:gainType = \"{words}\"\nrel mjc:target = </bot/j>\n"
+                );
             }
             _ => {
                 let count = draw.dice.below(900);

@@ -261,7 +261,10 @@ fn models_that_are_attached_very_often() {
     let files = in_memory(&[("r.xml", text.as_bytes()), ("b.xml", part.as_bytes())]);
     let error = import(Path::new("/r.xml"), &files).unwrap_err().to_string();
     // At an `<attach>`, before anything is copied.
-    assert!(error.starts_with("/r.xml:1:") && error.contains("needs more memory or work"), "{error}");
+    assert!(
+        error.starts_with("/r.xml:1:") && error.contains("needs more memory or work"),
+        "{error}"
+    );
 }
 
 #[test]
