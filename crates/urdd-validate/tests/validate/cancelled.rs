@@ -97,7 +97,7 @@ static WATCHING: Rule = Rule {
 
 #[test]
 fn a_robot_beyond_its_limits_is_not_examined_and_the_others_are() {
-    let (folder, path) = made(&our_robots()[8].1);
+    let (folder, path) = made(&our_robots()[5].1);
     let paths = ["a_good", "b_slow", "c_good"].map(|name| folder.path().join(name));
     paths.iter().for_each(|to| take(&path, to).unwrap());
     let cancellation = RUN.get_or_init(|| Cancellation::watched(Arc::default()));
