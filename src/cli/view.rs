@@ -146,7 +146,11 @@ fn view(arguments: &ViewArguments, watch: &Watch) -> Result<u8, Failure> {
             output::error("there is nothing to show");
             return Ok(FAILED);
         }
-        write_site(&collection, folder, opens.as_deref(), &watch.cancellation())?;
+        let written = write_site(&collection, folder, opens.as_deref(), &watch.cancellation());
+        if let (Err(_), Some(status)) = (&written, watch.status()) {
+            return Ok(status);
+        }
+        written?;
         if unmade.is_empty() {
             return Ok(0);
         }

@@ -208,10 +208,10 @@ fn names_that_leave_the_archive_are_refused() {
     for (from, to) in [
         ("aaaa.txt", "../a.txt"),
         ("aaaa.txt", "/etc/txt"),
-        ("aaaa.txt", "a\\..\\txt"),
+        ("aaaa.txt", "..\\a.txt"),
+        ("aaaa.txt", "\\etc\\txt"),
         ("aaaa.txt", "C:/a.txt"),
-        ("aaaa.txt", "a//a.txt"),
-        ("aaaa.txt", "a/./.txt"),
+        ("aaaa.txt", "./../txt"),
         ("aaaa.txt", "aaa\0.txt"),
     ] {
         assert_eq!(entry_fault(renamed(from, to)), EntryFault::Path, "{to:?}");

@@ -242,7 +242,10 @@ const NAMED_FILES: &[(&str, &str)] = &[
         "crates/urdd-source/src/loops/mod.rs",
         "what says of loops, which a person names, or beside the URDF; 1 MiB",
     ),
-    ("crates/urdd-source/src/packages.rs", "`package.xml`; 1 MiB"),
+    (
+        "crates/urdd-source/src/folder_facts.rs",
+        "`package.xml`, `CMakeLists.txt`, `setup.py`; 1 MiB",
+    ),
     ("wasm/src/about.rs", "a mesh that was given to the page, for its picture"),
     ("wasm/src/around.rs", "descriptions that were dropped; 64 MiB"),
     ("wasm/src/files.rs", "what was given to the page, for the page"),

@@ -6,9 +6,9 @@
 //! [`MULTIPLE`] times what was read and [`ALLOWANCE`] bytes, and about as many steps, whatever a small file asks for. A
 //! charge also asks whether the run was cancelled, so whatever is charged can be stopped.
 //!
-//! Two types make a charge hard to forget. Entries of [`Charged`] lists are charged when they are added, and once more for
-//! each walk of the list: only an index is free. A [`Shared`] value, which prims inherit or elements name, is charged each
-//! time that it is taken. Neither gives its content to anyone without an account.
+//! Types make a charge hard to forget. Entries of [`Charged`] lists are charged when they are added, and once more for each
+//! walk of the list: only an index is free. What prims of USD inherit (`Authored` of `urdd-usd`) is charged each time that it
+//! is taken. None of them gives its content to anyone without an account.
 
 use std::ops::{Index, IndexMut};
 use std::sync::Arc;
@@ -181,31 +181,5 @@ impl<T> Index<usize> for Charged<T> {
 impl<T> IndexMut<usize> for Charged<T> {
     fn index_mut(&mut self, index: usize) -> &mut T {
         &mut self.0[index]
-    }
-}
-
-/// A value of a description that may be taken many times: inherited by prims, named by elements. Clones share it.
-#[derive(Debug, PartialEq)]
-pub struct Shared<T>(Arc<T>);
-
-impl<T> Clone for Shared<T> {
-    fn clone(&self) -> Self {
-        Shared(Arc::clone(&self.0))
-    }
-}
-
-impl<T: Cost> Shared<T> {
-    /// A value, which was charged when it was made.
-    pub fn new(value: T) -> Self {
-        Shared(Arc::new(value))
-    }
-
-    /// The value, to read it once.
-    ///
-    /// # Errors
-    /// If the account does not have its cost.
-    pub fn take(&self, account: &Account) -> Result<&T, AccountError> {
-        account.charge(self.0.cost())?;
-        Ok(&self.0)
     }
 }

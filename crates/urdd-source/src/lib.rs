@@ -17,6 +17,7 @@ mod format;
 pub mod gate;
 mod inspect;
 mod installed;
+mod job_names;
 mod load;
 pub mod loops;
 pub mod macros;

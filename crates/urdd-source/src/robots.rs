@@ -2,15 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use thiserror::Error;
 use urdd_directory::account::Account;
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::file_type::{self, FileType};
+use urdd_directory::file_type::FileType;
 use urdd_directory::limits::MAX_FOLDER_DEPTH;
-use urdd_directory::path;
 use urdd_format::escape;
 use urdd_format::readable::first_of;
 use urdd_format::short::Short;
@@ -21,6 +20,7 @@ use crate::fault::Fault;
 use crate::files::Files;
 use crate::folder_facts::FolderFacts;
 use crate::format::{RobotFile, by_content, parts_of_others};
+use crate::job_names;
 use crate::packages::IGNORED;
 use crate::settings::{Declared, Settings, files_below};
 
@@ -288,7 +288,7 @@ pub fn jobs(paths: &[PathBuf], settings: &Settings) -> Result<Vec<Job>, BatchErr
 
 /// Names each robot as [`jobs`] does.
 pub(crate) fn named(robots: Vec<Declared>) -> Vec<Job> {
-    let names = names(&robots);
+    let names = job_names::names(&robots);
     let job = |(robot, name): (Declared, String)| Job {
         arguments: robot.arguments,
         ..Job::new(robot.source, name)
@@ -377,56 +377,4 @@ fn search(
 fn expansion(xacro: &Path) -> PathBuf {
     let stem = xacro.with_extension("");
     if FileType::Urdf.is_of(&stem) { stem } else { stem.with_extension("urdf") }
-}
-
-fn names(sources: &[Declared]) -> Vec<String> {
-    let parts: Vec<Vec<String>> = sources.iter().map(parts).collect();
-    let mut used = vec![1; sources.len()];
-    let name = |idx: usize, used: usize| {
-        path::file_name(&parts[idx][parts[idx].len() - used..].join("-"), "")
-    };
-    loop {
-        let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-        for (idx, used) in used.iter().enumerate() {
-            let name = name(idx, *used).to_lowercase();
-            groups.entry(name).or_default().push(idx);
-        }
-        let mut grown = false;
-        for idx in groups.into_values().filter(|group| group.len() > 1).flatten() {
-            if used[idx] < parts[idx].len() {
-                used[idx] += 1;
-                grown = true;
-            }
-        }
-        if !grown {
-            break;
-        }
-    }
-    let mut taken = BTreeSet::new();
-    let mut last: HashMap<String, usize> = HashMap::new();
-    let names = (0..sources.len()).map(|idx| {
-        let name = name(idx, used[idx]);
-        let mut candidate = name.clone();
-        let number = last.entry(name.to_lowercase()).or_insert(1);
-        while !taken.insert(candidate.to_lowercase()) {
-            *number += 1;
-            candidate = format!("{name}_{number}");
-        }
-        candidate
-    });
-    names.collect()
-}
-
-/// The names of a robot's folders, and its own name, or its file's without extension; none of them hidden.
-fn parts(Declared { source, name, .. }: &Declared) -> Vec<String> {
-    let folders = source.parent().into_iter().flat_map(Path::components);
-    let folders = folders.filter_map(|component| match component {
-        Component::Normal(name) => Some(name.to_string_lossy().into_owned()),
-        _ => None,
-    });
-    let plain = |name: String| match name.trim_start_matches('.') {
-        "" => "robot".to_owned(),
-        name => name.to_owned(),
-    };
-    folders.chain([name.clone().unwrap_or_else(|| file_type::stem(source))]).map(plain).collect()
 }

@@ -58,7 +58,7 @@ fn the_file_beside_the_urdd_is_read_and_never_overwritten() {
     // Another file can be given instead; one that is too long is refused.
     std::fs::write(folder.join("other.toml"), &mine).expect("written");
     assert_eq!(run(&["--setup", "other.toml"]).0, 0);
-    std::fs::write(folder.join("long.toml"), "#".repeat(10 << 20)).expect("written");
+    std::fs::write(folder.join("long.toml"), "#".repeat(17 << 20)).expect("written");
     let (status, _, said) = run(&["--setup", "long.toml"]);
     assert!(status == 2 && said.contains("long.toml: "), "{said}");
 }

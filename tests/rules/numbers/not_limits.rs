@@ -30,6 +30,7 @@ pub const NOT_LIMITS: &[(&str, &str)] = &[
     ("10.5", "In `dof_module` 0.0.1 mimic"),
     ("10.8", "`chain_module` 0.0.1 has"),
     ("11.1", "draft 2020-12"),
+    ("11.1", "`dependencies` of draft 7"),
     ("11.1", "as in ECMA-262 of 2020"),
     // Clauses of this text, which have no number of their own.
     ("3.3.1", "fulfils 3.2."),

@@ -23,6 +23,7 @@ const OF: &[(&str, f64, &str)] = &[
     ("PLACING_RELATIVE", PLACING_RELATIVE, "7.6.1"),
     ("PIECE_OUT_OF_HULL", PIECE_OUT_OF_HULL, "7.10"),
     ("PIECE_BARELY_OUT_OF_HULL", PIECE_BARELY_OUT_OF_HULL, "7.10"),
+    ("SPLINTER", SPLINTER, "7.10"),
     ("STL_NORMAL", STL_NORMAL, "7.6"),
     ("PRIMITIVE_SAG", PRIMITIVE_SAG, "7.8"),
     ("PRIMITIVE_AREA", PRIMITIVE_AREA, "7.8"),
@@ -38,6 +39,7 @@ const OF: &[(&str, f64, &str)] = &[
     ("SPHERE_IN_SPHERE", SPHERE_IN_SPHERE, "8.9.3"),
     ("SPHERES_COVER", SPHERES_COVER, "8.9.4"),
     ("FIT_LENGTH", FIT_LENGTH, "8.9.5"),
+    ("FIT_LENGTH_FAR", FIT_LENGTH_FAR, "8.9.5"),
     ("FIT_FRACTION", FIT_FRACTION, "8.9.5"),
 ];
 

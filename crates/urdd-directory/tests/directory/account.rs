@@ -1,6 +1,6 @@
 //! The account of what may be made of what was read, and done with it.
 
-use urdd_directory::account::{Account, AccountError, Charged, Cost, Overdrawn, Shared};
+use urdd_directory::account::{Account, AccountError, Charged, Cost, Overdrawn};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_directory::limits::{ALLOWANCE, MULTIPLE};
 
@@ -45,16 +45,6 @@ fn a_list_has_what_was_charged_and_each_walk_is_a_step_an_entry() {
     assert_eq!(costs(&list), Err(OVERDRAWN), "3 steps were left, and 2 were done");
     assert!(list.walk_mut(&account).is_err());
     assert_eq!(list.push(Bytes(1), &account), Err(OVERDRAWN));
-}
-
-#[test]
-fn a_shared_value_is_charged_each_time() {
-    let account = Account::default();
-    let value = Shared::new(Bytes(allowance() / 2));
-    let heir = value.clone();
-    assert_eq!(value.take(&account), Ok(&Bytes(allowance() / 2)));
-    assert!(heir.take(&account).is_ok());
-    assert_eq!(heir.take(&account), Err(OVERDRAWN));
 }
 
 #[test]

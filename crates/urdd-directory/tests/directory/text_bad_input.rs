@@ -65,7 +65,7 @@ fn a_key_in_braces_is_on_one_line_with_its_colon() {
 
 #[test]
 fn a_text_that_ends_with_the_file() {
-    // Saphyr reads one more line break at the end of each than PyYAML.
+    // Saphyr reads one more line break at the end of each than PyYAML: both are right (SPEC 3.2.3).
     for yaml in [
         "k: |\n  é",
         "k: >\n  é",
@@ -77,8 +77,9 @@ fn a_text_that_ends_with_the_file() {
         for text in ["é", "é\n"] {
             let faults = faults_of(yaml, json!({"k": text}));
             let total = faults.total(Kind::YamlAmbiguousScalar);
-            assert_eq!(total, 1, "{yaml:?}: {faults}");
+            assert_eq!(total, 0, "{yaml:?}: {faults}");
         }
+        assert!(!faults_of(yaml, json!({"k": "e"})).is_empty(), "{yaml:?}");
     }
     let clear = ["k: |\n  é\n", "k: |\n  é\n# why", "{k: \"é\\n\"}"];
     for yaml in clear {
