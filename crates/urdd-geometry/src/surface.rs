@@ -181,7 +181,7 @@ impl<'a> Matching<'a> {
         let mut difference = Difference::default();
         let mut first: Option<[[f64; 3]; 3]> = None;
         let mut lost = [Vec::new(), Vec::new()];
-        for which in 0..2 {
+        for (which, lost) in lost.iter_mut().enumerate() {
             for (at, triangle) in self.meshes[which].triangles.iter().enumerate() {
                 if !needs(which, *triangle) {
                     continue;
@@ -208,7 +208,7 @@ impl<'a> Matching<'a> {
                         0 => difference.missing += 1,
                         _ => difference.extra.push(at),
                     }
-                    lost[which].push(*triangle);
+                    lost.push(*triangle);
                 } else if which == 1 && is_turned {
                     difference.turned += 1;
                 } else {

@@ -354,7 +354,7 @@ fn mend<T>(
         let plus = match xml.document() {
             Ok(document) => {
                 let robot = document.root_element();
-                let plus = loops::placed_urdf_plus(robot, &places_of, &mut notes, account);
+                let plus = loops::placed_urdf_plus(robot, places_of, &mut notes, account);
                 plus.map_err(|CostlyElement { offset, error }| match error {
                     AccountError::Cancelled(cancelled) => cancelled.into(),
                     AccountError::Overdrawn(error) => {

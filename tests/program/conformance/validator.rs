@@ -253,7 +253,8 @@ fn results_are_logged_as_they_come_and_folders_can_stay() {
     assert_eq!(lines[0]["end"], "exit status 1");
     assert!(lines[0]["id"].as_str().is_some_and(|id| id.starts_with("DOF001/")));
 
-    let (_, result) = run(&["DOF001"], &[&more[..], &keep].concat(), &[URDD, "validate", "{dir}"]);
+    let more = [&more[..], &keep, &["--no-legacy"]].concat();
+    let (_, result) = run(&["DOF001"], &more, &[URDD, "validate", "{dir}"]);
     let of = number_judged(&result);
     let logged = fs::read_to_string(&log).expect("a log");
     assert_eq!(logged.lines().count(), of);

@@ -123,7 +123,10 @@ fn what_the_profile_reads_decides_its_cases() {
     let mut compared = 0;
     for (item, case) in items.iter().skip(suite.data.robots().len()).zip(suite.all_cases()) {
         assert_eq!(item.id, case.id());
-        if !item.profiles.contains(&Profile::CoreJson) || item.verdict != Verdict::Reject || case.changes.is_empty() {
+        if !item.profiles.contains(&Profile::CoreJson)
+            || item.verdict != Verdict::Reject
+            || case.changes.is_empty()
+        {
             continue;
         }
         let urdd = suite.tree(case).expect("a case");

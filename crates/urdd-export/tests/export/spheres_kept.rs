@@ -213,19 +213,17 @@ fn lists_that_multiply_are_refused_before_they_do() {
 
     let folder = temporary::folder();
     let robot = with_spheres(folder.path());
-    let of = |links: &[(&str, &dyn Fn(u32) -> urdd_export::Sphere, u32)]| SphereList {
-        links: links
-            .iter()
-            .map(|(link, one, count)| ((*link).to_owned(), (0..*count).map(*one).collect()))
-            .collect(),
-        left_out: Vec::new(),
+    let spheres = |apart: f64| {
+        let one =
+            |k: u32| urdd_export::Sphere { centre: [0.1, 0.0, apart * f64::from(k)], radius: 0.04 };
+        SphereList {
+            links: vec![("b".to_owned(), (0..5000).map(one).collect())],
+            left_out: Vec::new(),
+        }
     };
-    let same = |_| urdd_export::Sphere { centre: [0.1, 0.0, 0.0], radius: 0.04 };
-    let near =
-        |k: u32| urdd_export::Sphere { centre: [0.1, 0.0, 1e-12 * f64::from(k)], radius: 0.04 };
-    let taken = import_spheres(&robot, &of(&[("b", &same, 5000)]), &Account::default());
+    let taken = import_spheres(&robot, &spheres(0.0), &Account::default());
     assert_eq!(taken.expect("equal ones are looked at once").taken, 5000);
-    let refused = import_spheres(&robot, &of(&[("b", &near, 5000)]), &Account::default());
+    let refused = import_spheres(&robot, &spheres(1e-12), &Account::default());
     let said = refused.map(|found| found.taken).expect_err("64 times 25 million").to_string();
     assert!(said.starts_with("the spheres of `b`: ") && said.contains("memory or work"), "{said}");
 }

@@ -179,8 +179,9 @@ impl Index {
                     if let Some(material) = offset.and_then(|at| material(subject, at)) {
                         add(index.by_material.entry(material).or_default());
                     }
-                    let own = place.subject.as_ref();
-                    own.map(|part| add(index.by_subject.entry(part.clone()).or_default()));
+                    if let Some(part) = &place.subject {
+                        add(index.by_subject.entry(part.clone()).or_default());
+                    }
                     add(&mut index.firsts);
                     index.all.push(Known {
                         code: check.rule.code,

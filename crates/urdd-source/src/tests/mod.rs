@@ -6,6 +6,7 @@
 mod arguments;
 mod files;
 mod inspect;
+mod installed;
 mod loops;
 mod origin;
 mod packages;
