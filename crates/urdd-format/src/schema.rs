@@ -51,7 +51,7 @@ pub enum Subject {
     ProducerResult,
     /// Output of `urdd conformance validator --format json`.
     ValidatorResult,
-    /// The same in an earlier version, by its place in [`EARLIER_VALIDATOR_RESULTS`].
+    /// The same in an earlier version, by its place in the list of earlier ones.
     EarlierValidatorResult(usize),
 }
 

@@ -169,7 +169,7 @@ impl World {
 }
 
 /// Each constructor fails with [`RobotError::Obstacle`] if a size is not finite, negative or larger than 1e9 m, if a point or
-/// the pose is not finite or farther than 1e9 m from the origin, or if there are no points or more than [`MAX_POINTS`].
+/// the pose is not finite or farther than 1e9 m from the origin, or if there are no points or more than 10,000,000.
 impl Obstacle {
     /// A box: the pose of its centre and axes, and its half extents, in metres.
     pub fn cuboid(
@@ -286,7 +286,7 @@ impl Obstacle {
     /// Checks the number of points of a cloud, or of heights of a field, before memory is taken for them.
     ///
     /// # Errors
-    /// [`RobotError::Obstacle`] if there are more than [`MAX_POINTS`].
+    /// [`RobotError::Obstacle`] if there are more than 10,000,000.
     pub fn check_count(name: &str, count: usize) -> Result<(), RobotError> {
         if count <= MAX_POINTS {
             return Ok(());
