@@ -176,7 +176,8 @@ def check_module_files(urdd: Urdd, place: int, entry: dict[str, Any]) -> None:
             urdd.report.error("DIR012", META, f"/modules/{place}/files")
     for number, file in enumerate(entry["files"]):
         pointer = f"/modules/{place}/files/{number}"
-        check_listed_file(urdd, file, pointer, file["path"] in (document, folder + "/VERSION"))
+        needed = (known or extension) and file["path"] in (document, folder + "/VERSION")
+        check_listed_file(urdd, file, pointer, bool(needed))
         if not file["path"].startswith(folder + "/"):
             urdd.report.error("DIR012", META, pointer)
 

@@ -142,17 +142,25 @@ fn read(urdd: &Tree) -> BTreeMap<String, Vec<u8>> {
     let metadata = urdd.file("urdd.json").unwrap_or_default();
     let mut read = BTreeMap::from([("urdd.json".to_owned(), metadata.to_vec())]);
     if let Ok(mut value) = serde_json::from_slice::<Value>(metadata) {
-        let modules = value["modules"].as_array_mut().into_iter().flatten();
-        for file in modules.filter_map(|module| module["files"].as_array_mut()).flatten() {
-            let bytes = file["path"].as_str().and_then(|path| urdd.file(path));
+        let list = |value: &'_ mut Value, key: &str| {
+            let list = value.get_mut(key).and_then(Value::as_array_mut);
+            list.map(std::mem::take).unwrap_or_default()
+        };
+        let mut modules = list(&mut value, "modules");
+        let mut files: Vec<Value> = modules.iter_mut().flat_map(|one| list(one, "files")).collect();
+        for file in files.iter_mut().filter_map(Value::as_object_mut) {
+            let text = |key: &str| file.get(key).and_then(Value::as_str);
+            let bytes = text("path").and_then(|path| urdd.file(path));
             let hash = bytes.map(|mut bytes| hashes(&mut bytes, false).expect("bytes").plain);
-            let is_right = hash.as_deref() == file["sha256"].as_str()
-                && bytes.map(|bytes| bytes.len() as u64) == file["size"].as_u64();
-            file["sha256"] = is_right.into();
+            let size = file.get("size").and_then(Value::as_u64);
+            let is_right =
+                hash.as_deref() == text("sha256") && bytes.map(|bytes| bytes.len() as u64) == size;
+            file.insert("sha256".to_owned(), is_right.into());
             if is_right {
-                file["size"] = Value::Null;
+                file.insert("size".to_owned(), Value::Null);
             }
         }
+        read.insert("modules".to_owned(), format!("{modules:?} {files:?}").into_bytes());
         read.insert("urdd.json".to_owned(), value.to_string().into_bytes());
     }
     for (path, node) in &urdd.nodes {
