@@ -4,6 +4,7 @@
 #![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod bounds;
+mod bounds_loops;
 mod bounds_of_places;
 mod bounds_usd;
 mod gate;

@@ -7,6 +7,7 @@ use urdd_directory::loops_toml::{File, FrameTable};
 use urdd_document::pose::unit;
 use urdd_document::robot::{Joint, Robot};
 use urdd_document::tree::Mimics;
+use urdd_findings::part::SkipReason;
 use urdd_format::readable::{self, counted};
 use urdd_format::urdf::JointType;
 use urdd_geometry::convex::across::PlacedPair;
@@ -282,8 +283,9 @@ const MEET: f64 = 1e-6;
 fn closed_chain(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let account = Account::new(&urdf.settings.source.cancellation);
     account.deposit(urdf.root.document().input_text().len());
-    // What costs too much is an error of the source.
-    let of_urdf = urdf_plus(urdf.root, &account).ok()?.map_or_else(Vec::new, |(_, faults)| faults);
+    let of_urdf = urdf_plus(urdf.root, &account);
+    let of_urdf = findings.or_skip(of_urdf.map_err(|costly| SkipReason::obstacle(costly.error)))?;
+    let of_urdf = of_urdf.map_or_else(Vec::new, |(_, faults)| faults);
     let of_urdf: BTreeMap<usize, LoopFault> =
         of_urdf.into_iter().map(|fault| (fault.offset, fault)).collect();
     let is_closing = |(name, node): &(&str, Node)| {

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use urdd_findings::check::Outcome;
 use urdd_format::report::Place;
 use urdd_lint::vocabulary::Names;
 use urdd_lint::{LintSettings, lint_text};
@@ -117,4 +118,24 @@ fn a_mesh_of_many_scales_is_looked_at_once() {
     let once = missing(1);
     assert!(once > 0);
     assert_eq!(missing(40), once);
+}
+
+/// Couplings of a long chain cost more than the file allows: what closes the robot is not examined, and no rule crashes.
+#[test]
+fn couplings_of_a_long_chain_are_not_examined() {
+    let (links, couplings) = (1500, 4000);
+    let chain: String = (1..links)
+        .map(|at| format!("<link name='l{at}'/><joint name='jointname{at}' type='revolute'><parent link='l{}'/><child link='l{at}'/><axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>", at - 1))
+        .collect();
+    let ends = format!("<predecessor link='l0'/><successor link='l{}'/>", links - 1);
+    let all: String = (0..couplings)
+        .map(|at| format!("<coupling name='c{at}'>{ends}<ratio value='1'/></coupling>"))
+        .collect();
+    let text = format!("<robot name='r'><link name='l0'/>{chain}{all}</robot>");
+    let folder = tempfile::tempdir().unwrap();
+    let examined = lint_text(&text, "r.urdf", folder.path(), &LintSettings::default());
+    assert!(examined.checks.iter().all(|check| !matches!(check.outcome, Outcome::Crashed(_))));
+    let check = examined.checks.iter().find(|check| check.rule.code.as_str() == "LNT066");
+    let Outcome::Skipped(why) = &check.unwrap().outcome else { panic!("it was examined") };
+    assert!(why.to_string().contains("memory or work"), "{why}");
 }
