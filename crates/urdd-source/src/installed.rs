@@ -8,7 +8,7 @@ use urdd_directory::account::{Account, AccountError};
 use urdd_directory::limits::{MAX_MANIFEST_BYTES, MAX_NAME_BYTES};
 
 use crate::files::Files;
-use crate::suggested::{Token, tokens};
+use crate::python_tokens::{Token, tokens};
 
 /// Maximum length of a value that a variable stands for, in bytes: it may be put in very often.
 pub const MAX_VALUE: usize = 255;

@@ -27,6 +27,7 @@ pub mod origin;
 mod package_index;
 mod packages;
 pub mod process;
+mod python_tokens;
 mod resolve;
 pub mod robots;
 mod roots;
