@@ -70,7 +70,8 @@ def kinds() -> list[Any]:
         moved = {"position": list(SHIFT), "quaternion_wxyz": still}
         found.append((kind, moved, apart.get(kind, math.hypot(x, y, z)), 0.0))
         for axis in range(3):
-            # The distance of two rotations by an angle is 2 sin (angle / 2), that of two directions too.
+            # The distance of two rotations by an angle is 2 sin (angle / 2), and so is that of two
+            # directions.
             directed = chord if axis != 2 else 0.0
             of_kind = {"Fixed": 2 * math.sin(TURN / 2), "Prismatic": 2 * math.sin(TURN / 2)}
             gap = of_kind.get(kind, 0.0 if kind == "Spherical" else directed)
