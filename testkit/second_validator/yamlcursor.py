@@ -163,7 +163,7 @@ class Cursor:
 
 
 class LastText(str):
-    """A text that ends with the file, without a line break: readers differ about its end (3.2.3)."""
+    """A text that ends with the file, without a line break: readers differ about its end (3.2)."""
 
     def __eq__(self, other: object) -> bool:
         return str.__eq__(self, other) or str.__eq__(self.removesuffix("\n"), other)
