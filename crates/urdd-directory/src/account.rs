@@ -164,11 +164,6 @@ impl<T> Charged<T> {
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
-
-    /// The entries, which are walked at most once this way.
-    pub fn into_entries(self) -> Vec<T> {
-        self.0
-    }
 }
 
 impl<T> Index<usize> for Charged<T> {
