@@ -5,9 +5,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-use rayon::prelude::*;
 use urdd_directory::cancellation::Cancellation;
-use urdd_directory::watched::watched;
+use urdd_directory::watched::{map_robots, watched};
 
 use super::error::GenerateError;
 use super::robot::{Generated, generate};
@@ -58,7 +57,7 @@ pub trait Observer: Sync {
 pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Observer) -> usize {
     // Outcomes that wait for earlier ones.
     let waiting = Mutex::new((0, BTreeMap::new()));
-    let one = |(idx, job): (usize, &Job)| {
+    let one = |(idx, job): &(usize, &Job)| {
         if settings.source.cancellation.is_cancelled() {
             return 0;
         }
@@ -71,17 +70,15 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
         let failed = usize::from(outcome.is_err());
         let mut waiting = waiting.lock().unwrap_or_else(PoisonError::into_inner);
         let (next, outcomes) = &mut *waiting;
-        outcomes.insert(idx, outcome);
+        outcomes.insert(*idx, outcome);
         while let Some(outcome) = outcomes.remove(next) {
             observer.done(&jobs[*next], &outcome);
             *next += 1;
         }
         failed
     };
-    match settings.source.cancellation.is_watched() {
-        true => jobs.iter().enumerate().map(one).sum(),
-        false => jobs.par_iter().enumerate().map(one).sum(),
-    }
+    let numbered: Vec<(usize, &Job)> = jobs.iter().enumerate().collect();
+    map_robots(&settings.source.cancellation, &numbered, one).into_iter().sum()
 }
 
 /// As [`caught`], within the limits of a robot, if the run has any.

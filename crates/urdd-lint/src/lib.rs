@@ -33,9 +33,8 @@ pub use sources::{LintError, Undeclared, lint_undeclared, seen_from, undeclared}
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use rayon::prelude::*;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
-use urdd_directory::watched::watched;
+use urdd_directory::watched::{map_robots, watched};
 use urdd_findings::check::Examined;
 use urdd_findings::run::Run;
 use urdd_format::index::Count;
@@ -76,10 +75,7 @@ pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError
             Some(Linted { examined, stale: Vec::new(), text: None })
         })
     };
-    let linted: Vec<Option<Linted>> = match run.is_watched() {
-        true => jobs.iter().map(lint).collect(),
-        false => jobs.par_iter().map(lint).collect(),
-    };
+    let linted = map_robots(run, &jobs, lint);
     run.check()?;
     let parts = linted.iter().filter(|one| one.is_none()).count();
     let linted = jobs.into_iter().zip(linted).filter_map(|(job, one)| Some((job.source, one?)));

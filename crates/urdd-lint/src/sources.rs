@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 use urdd_directory::cancellation::{Cancelled, Limit};
 use urdd_directory::file_type::FileType;
+use urdd_directory::watched::map_robots;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::check::{Examined, blank};
 use urdd_findings::code::Code;
@@ -62,12 +63,9 @@ pub(crate) fn within_limits<J: Sync, T: Send>(
             None => done.map(Ok),
         }
     };
-    let found = match run.is_watched() {
-        true => jobs.iter().filter_map(one).collect(),
-        false => jobs.par_iter().filter_map(one).collect(),
-    };
+    let found = map_robots(run, jobs, one);
     run.check()?;
-    found
+    found.into_iter().flatten().collect()
 }
 
 pub(crate) struct Sources {

@@ -59,7 +59,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use rayon::prelude::*;
 use thiserror::Error;
 
 use self::code::Code;
@@ -71,7 +70,7 @@ use urdd_directory::discover::{DiscoverError, Found, discover};
 use urdd_directory::file_type::RobotFile;
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::Source;
-use urdd_directory::watched::watched;
+use urdd_directory::watched::{map_robots, watched};
 use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
 use urdd_findings::check::Examined;
@@ -143,10 +142,7 @@ pub fn validate_with<P: AsRef<Path>>(
         places::trim(&mut examined.checks, kept);
         examined
     };
-    let examined = match run.is_watched() {
-        true => all.iter().map(one).collect(),
-        false => all.par_iter().map(one).collect(),
-    };
+    let examined = map_robots(run, &all, one);
     settings.cancellation.check()?;
     let folders = all.into_iter().map(|(_, found)| found.path);
     Ok(Run::of(examined, folders.collect(), excluded, settings))
