@@ -128,7 +128,12 @@ fn timeout(word: &str) -> Result<Duration, String> {
 impl XacroArguments {
     /// Settings that use them, with these arguments for the files.
     pub(super) fn settings(&self, arguments: Vec<String>) -> XacroSettings {
-        XacroSettings { expand_urdf: self.xacro, arguments, time_limit: self.xacro_timeout }
+        XacroSettings {
+            expand_urdf: self.xacro,
+            arguments,
+            time_limit: self.xacro_timeout,
+            ..XacroSettings::default()
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use similar::TextDiff;
 
 use super::arguments::{LoopsArguments, PackageArguments, XacroArguments, split};
 use super::output::{self, Color, Failure, about, one_line, shown};
-use super::validate::ReportArguments;
+use super::validate::{CONFORMING, FINDINGS, ReportArguments, status};
 use super::watch::{Watch, Work};
 use urdd_findings::baseline::Baseline;
 use urdd_findings::settings::parse_program;
@@ -208,12 +208,25 @@ fn write_baseline(file: &Path, run: &Run) -> Result<u8, Failure> {
     if file.exists() {
         Baseline::read(file)?;
     }
+    // What was not examined is in no baseline, and is said here: no later run will compare with it.
+    for (urdf, why) in
+        run.report.urdds.iter().filter_map(|urdf| Some((urdf, urdf.not_examined.as_ref()?)))
+    {
+        output::error(&format!("{}: not examined: {}", one_line(urdf.label()), why.reason));
+    }
     let baseline = Baseline::of(run, file.parent().unwrap_or(Path::new(".")));
-    output::write_file(file, &baseline.to_json())?;
     let shown = shown(file);
+    let status = status(&run.report);
+    if status == output::USAGE {
+        return Err(format!("{shown}: no robot could be examined, so no baseline is written").into());
+    }
+    output::write_file(file, &baseline.to_json())?;
     let findings = counted(baseline.count(), "finding");
     output::print(&format!(
         "{shown}: {findings}, which `urdd lint --baseline {shown}` leaves out\n"
     ))?;
-    Ok(0)
+    // The findings are known now; what was not examined is not.
+    let open = run.report.urdds.iter().filter_map(|urdf| urdf.not_examined.as_ref());
+    let is_asked_for = open.into_iter().any(|why| why.is_asked_for);
+    Ok(if status == FINDINGS && !is_asked_for { CONFORMING } else { status })
 }

@@ -77,9 +77,9 @@ fn validate(arguments: &ValidateArguments, watch: &Watch, color: Color) -> Resul
 }
 
 /// Exit status: conforming.
-const CONFORMING: u8 = 0;
+pub(super) const CONFORMING: u8 = 0;
 /// Exit status: findings.
-const FINDINGS: u8 = 1;
+pub(super) const FINDINGS: u8 = 1;
 /// Exit status: a rule panicked.
 const INTERNAL: u8 = 101;
 
@@ -239,14 +239,16 @@ impl ReportArguments {
     }
 }
 
-fn status(report: &Report) -> u8 {
+/// The exit status of a run. Where nothing was examined it is that of nothing to examine.
+pub(super) fn status(report: &Report) -> u8 {
+    let not_examined = || report.urdds.iter().filter_map(|urdd| urdd.not_examined.as_ref());
     if report.count(Verdict::Incomplete) > 0 {
         INTERNAL
-    } else if report.count(Verdict::Unreadable) == report.urdds.len() && !report.urdds.is_empty() {
+    } else if not_examined().count() == report.urdds.len() && !report.urdds.is_empty() {
         output::USAGE
-    } else if report.count(Verdict::Pass) == report.urdds.len() {
-        CONFORMING
-    } else {
+    } else if report.count(Verdict::Fail) > 0 || not_examined().any(|why| why.is_asked_for) {
         FINDINGS
+    } else {
+        CONFORMING
     }
 }

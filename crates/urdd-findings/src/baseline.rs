@@ -69,11 +69,12 @@ impl Baseline {
         }
     }
 
-    /// The baseline of all that a run reports, for a file in `folder`.
+    /// The baseline of all that a run reports, for a file in `folder`. What was not examined is never in it.
     pub fn of(run: &Run, folder: &Path) -> Self {
         let mut baseline = Baseline { folder: resolved(folder), files: BTreeMap::new() };
         let urdfs = run.report.urdds.iter().zip(&run.folders);
-        for (urdf, at) in urdfs.filter(|(urdf, _)| urdf.kind == Kind::Urdf) {
+        let is_known = |urdf: &Urdd| urdf.kind == Kind::Urdf && urdf.not_examined.is_none();
+        for (urdf, at) in urdfs.filter(|(urdf, _)| is_known(urdf)) {
             let name = urdf.path.rsplit('/').next().unwrap_or_default();
             let file = baseline.name(&at.join(name), urdf);
             for finding in &urdf.findings {
@@ -100,6 +101,9 @@ impl Baseline {
 
     /// Leaves out what it counts in the file at `path`. Returns what it counts and was not found.
     pub fn apply(&self, path: &Path, examined: &mut Examined) -> Vec<StaleIgnore> {
+        if examined.report.not_examined.is_some() {
+            return Vec::new();
+        }
         let name = self.name(path, &examined.report);
         let Some(counts) = self.files.get(&name) else {
             return Vec::new();

@@ -2,19 +2,18 @@
 
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use super::answer::not_examined;
 use super::code::Code;
 use super::description::{Description, Phase};
 use super::finding::{Finding, Findings};
 use super::part::{Faulted, NotVerified, Part, Scope, SkipReason, Why};
-use urdd_directory::cancellation::Limit;
 use urdd_directory::position::Position;
 use urdd_format::index::Count;
 use urdd_format::registry::ModuleKind;
 use urdd_format::report::{
-    Kind, LinkNotVerified, ModelNotVerified, Place, Severity, Size, Urdd, Verdict,
+    Cause, Kind, LinkNotVerified, ModelNotVerified, NotExamined, Place, Severity, Size, Urdd, Verdict,
 };
 
 /// The outcome of a rule.
@@ -164,38 +163,31 @@ pub struct Examined {
 }
 
 impl Examined {
-    /// One that could not be examined, for this reason.
-    pub fn without_checks(kind: Kind, name: &str, verdict: Verdict, reason: String) -> Self {
-        let report = Urdd { verdict, reason: Some(reason), ..blank(kind, name) };
+    /// One that was not examined.
+    pub fn without_checks(kind: Kind, name: &str, why: NotExamined) -> Self {
+        let report = Urdd { not_examined: Some(why), ..blank(kind, name) };
         Examined { report, checks: Vec::new() }
     }
 
     /// Examines a URDD or URDF. If it cannot be read, or if the program crashes outside a rule, its report says so; others
     /// still have their reports.
-    pub fn caught<E: Display>(
+    pub fn caught(
         kind: Kind,
         name: &str,
-        examine: impl FnOnce() -> Result<Examined, E>,
+        examine: impl FnOnce() -> Result<Examined, NotExamined>,
     ) -> Examined {
-        let without_checks =
-            |verdict, reason| Examined::without_checks(kind, name, verdict, reason);
-        match catch_unwind(AssertUnwindSafe(examine)) {
-            Ok(Ok(examined)) => examined,
-            Ok(Err(error)) => without_checks(Verdict::Unreadable, error.to_string()),
+        let why = match catch_unwind(AssertUnwindSafe(examine)) {
+            Ok(Ok(examined)) => return examined,
+            Ok(Err(why)) => why,
             Err(panic) => {
                 let message = panic_message(&*panic);
                 let reason = format!(
                     "the program crashed: {message}; this is a bug in the program, please report it"
                 );
-                without_checks(Verdict::Incomplete, reason)
+                not_examined(Cause::Crash, reason)
             }
-        }
-    }
-
-    /// One that takes more than it may.
-    pub fn beyond(limit: Limit, kind: Kind, name: &str) -> Examined {
-        let reason = format!("not examined: {limit}");
-        Examined::without_checks(kind, name, Verdict::Unreadable, reason)
+        };
+        Examined::without_checks(kind, name, why)
     }
 
     /// Every part that some rule did not verify, with the rules and reasons.
@@ -271,8 +263,10 @@ pub fn blank(kind: Kind, path: &str) -> Urdd {
         path: path.to_owned(),
         name: None,
         xacro_arguments: Vec::new(),
-        verdict: Verdict::Pass,
+        // Until its answer is known.
+        verdict: Verdict::Unreadable,
         reason: None,
+        not_examined: None,
         size: Size::default(),
         modules: Vec::new(),
         checks: Vec::new(),

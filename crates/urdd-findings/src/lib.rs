@@ -3,6 +3,7 @@
 //! What is wrong, where, and what becomes of it: findings of rules, the settings that change them, baselines of what was
 //! found before, and reports as text, JSON, SARIF and JUnit. Knows no rule: the validator and lint have theirs.
 
+pub mod answer;
 pub mod baseline;
 pub mod check;
 pub mod code;

@@ -5,6 +5,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Component, Path, PathBuf};
 
+use crate::answer::{self, Answer};
 use crate::check::{Check, Examined, Outcome};
 use crate::code::Code;
 use crate::description::Description;
@@ -65,6 +66,11 @@ fn fill(mut examined: Vec<Examined>, settings: &Settings) -> Report {
     }
     let fail_on = settings.fail_on.unwrap_or(Severity::Error);
     let urdds: Vec<Urdd> = examined.into_iter().map(|examined| urdd(examined, fail_on)).collect();
+    let not_examined = urdds.iter().filter(|urdd| urdd.not_examined.is_some()).count();
+    let examined = |verdicts: &[Verdict]| {
+        let all = urdds.iter().filter(|urdd| urdd.not_examined.is_none());
+        Count::saturating(all.filter(|urdd| verdicts.contains(&urdd.verdict)).count())
+    };
     let total = |severity: Severity| {
         let findings = urdds.iter().flat_map(|urdd| &urdd.findings);
         let alike = findings.filter(|finding| finding.severity == severity);
@@ -76,6 +82,9 @@ fn fill(mut examined: Vec<Examined>, settings: &Settings) -> Report {
         stale_ignores,
         totals: Totals {
             urdds: Count::saturating(urdds.len()),
+            passed: examined(&[Verdict::Pass]),
+            failed: examined(&[Verdict::Fail, Verdict::Incomplete]),
+            not_examined: Count::saturating(not_examined),
             error: total(Severity::Error),
             warning: total(Severity::Warning),
             info: total(Severity::Info),
@@ -108,23 +117,29 @@ pub(crate) fn urdd(examined: Examined, fail_on: Severity) -> Urdd {
     let Examined { report, checks } = examined;
     let statuses: Vec<CheckStatus> = checks.iter().map(status).collect();
     let findings = findings(&report.modules, checks);
-    let crashed = statuses.iter().any(|check| check.status == Status::Crashed);
-    let failed = findings.iter().any(|finding| finding.severity >= fail_on);
     let open = by_reason(&statuses, Skipped::NotVerified).into_iter();
     let open = open.map(|(reason, codes)| NotChecked { codes, reason: reason.to_owned() });
-    Urdd {
-        verdict: match report.verdict {
-            Verdict::Pass if crashed => Verdict::Incomplete,
-            Verdict::Pass if failed => Verdict::Fail,
-            verdict => verdict,
-        },
-        not_checked: open.collect(),
+    let not_checked = open.collect();
+    let mut urdd = Urdd {
+        not_checked,
         checks: statuses,
         findings,
         geometry_not_verified,
         model_not_verified,
         ..report
-    }
+    };
+    urdd.verdict = match (&urdd.not_examined, Answer::of_rules(&urdd, fail_on)) {
+        (Some(why), _) => answer::verdict(why),
+        (None, Answer::Passes(_)) => Verdict::Pass,
+        (None, Answer::Fails) => Verdict::Fail,
+        (None, Answer::Crashed) => Verdict::Incomplete,
+        (None, Answer::NotExamined) => {
+            let why = answer::no_rule_looked(&urdd);
+            answer::verdict(urdd.not_examined.insert(why))
+        }
+    };
+    urdd.reason = urdd.not_examined.as_ref().map(|why| why.reason.clone());
+    urdd
 }
 
 fn status(check: &Check) -> CheckStatus {

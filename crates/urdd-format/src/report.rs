@@ -8,7 +8,7 @@ pub use super::report_of_urdf::{
 use super::types::{module, types};
 
 /// Version of the report's own format.
-pub const REPORT_VERSION: &str = "1.1.0";
+pub const REPORT_VERSION: &str = "1.2.0";
 
 module! {
     /// What a run of `urdd validate` found.
@@ -79,6 +79,8 @@ types! {
         pub verdict: Verdict,
         /// Why it is unreadable; else null.
         pub reason: Option<String>,
+        /// Why nothing was examined, so that it neither passes nor fails; null where something was.
+        pub not_examined: Option<NotExamined>,
         /// How large the robot is.
         pub size: Size,
         /// Its modules.
@@ -121,14 +123,46 @@ types! {
 
     /// What came of examining a URDD.
     pub enum Verdict {
-        /// Nothing found at or above the severity at which a run fails.
+        /// Rules looked at it, and nothing was found at or above the severity at which a run fails.
         Pass = "pass",
         /// Something found.
         Fail = "fail",
-        /// The folder could not be read.
+        /// The folder could not be read, or nothing was examined for another reason: `not_examined` says why.
         Unreadable = "unreadable",
         /// A rule crashed: a bug in this program. The URDD is not fully examined.
         Incomplete = "incomplete",
+    }
+
+    /// Why a URDD or URDF was not examined.
+    pub struct NotExamined {
+        /// What kind of reason it is.
+        pub cause: Cause,
+        /// Why, and what to do.
+        pub reason: String,
+        /// Whether a person names or declares it, so that the run fails. A xacro file that was found in a folder and needs
+        /// arguments is not asked for.
+        pub is_asked_for: bool,
+        /// The file with the reason, as seen from the folder of what was to be examined, with forward slashes; null where it
+        /// is not known.
+        pub file: Option<String>,
+        /// Line in the file, from 1.
+        pub line: Option<Count>,
+        /// Column in the line, in characters, from 1.
+        pub column: Option<Count>,
+    }
+
+    /// What keeps a URDD or URDF from being examined.
+    pub enum Cause {
+        /// It cannot be read.
+        Unreadable = "unreadable",
+        /// It is a xacro file that needs arguments, or does not take one that is declared of it.
+        Arguments = "arguments",
+        /// It takes more time or memory than it may.
+        Limit = "limit",
+        /// The program crashed: a bug in it.
+        Crash = "crash",
+        /// No rule that was selected could look at it.
+        NoRule = "no-rule",
     }
 
     /// A module of a URDD.
@@ -369,6 +403,12 @@ types! {
     pub struct Totals {
         /// Number of URDDs.
         pub urdds: Count,
+        /// Number of those that pass.
+        pub passed: Count,
+        /// Number of those that fail, or of which a rule crashed.
+        pub failed: Count,
+        /// Number of those that were not examined.
+        pub not_examined: Count,
         /// Number of errors.
         pub error: Count,
         /// Number of warnings.

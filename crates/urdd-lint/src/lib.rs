@@ -35,10 +35,13 @@ use std::sync::Arc;
 
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_directory::watched::{map_robots, watched};
+use urdd_findings::answer;
 use urdd_findings::check::Examined;
 use urdd_findings::run::Run;
 use urdd_format::index::Count;
-use urdd_format::report::{ImportedFrom, ImportedPart, Kind, StaleIgnore, WrittenAt};
+use urdd_format::report::{
+    Cause, ImportedFrom, ImportedPart, Kind, NotExamined, StaleIgnore, WrittenAt,
+};
 use urdd_import::{Imported, import};
 use urdd_source::macros::{has_no_link, has_no_name, has_open_ends};
 use urdd_source::robots::Job;
@@ -71,7 +74,7 @@ pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError
             lint_file(&own, found, &given, &settings)
         };
         watched(run, &seen, work).unwrap_or_else(|limit| {
-            let examined = Examined::beyond(limit, Kind::Urdf, &seen);
+            let examined = Examined::without_checks(Kind::Urdf, &seen, answer::beyond(limit));
             Some(Linted { examined, stale: Vec::new(), text: None })
         })
     };
@@ -147,7 +150,7 @@ fn lint_file(
     let path = job.source.as_path();
     let seen = seen_from(path, given);
     let (mut stale, mut text, mut is_part) = (Vec::new(), None, false);
-    let mut examined = Examined::caught::<SourceError>(Kind::Urdf, &seen, || {
+    let mut examine = || -> Result<Examined, SourceError> {
         let (mut examined, unused) = match import(path, &settings.source)? {
             Some(imported) => {
                 let examined = examined_import(&imported, stems(path), settings)?;
@@ -156,7 +159,8 @@ fn lint_file(
             }
             None => match read_source(path, &settings.source) {
                 Err(SourceError::NeedsArguments { needed, fault, .. }) => {
-                    (lint_undeclared(path, &needed, &fault, settings), Vec::new())
+                    let is_asked_for = found == Found::Named;
+                    (lint_undeclared(path, &needed, &fault, is_asked_for, settings), Vec::new())
                 }
                 read => {
                     let fails = matches!(read, Err(SourceError::Xacro { .. }));
@@ -183,10 +187,25 @@ fn lint_file(
             stale.extend(baseline.apply(path, &mut examined));
         }
         Ok(examined)
-    });
+    };
+    let mut examined =
+        Examined::caught(Kind::Urdf, &seen, || examine().map_err(|error| unread(path, &error)));
     examined.report.path = seen;
     examined.report.xacro_arguments.clone_from(&job.arguments);
     (!is_part).then_some(Linted { examined, stale, text })
+}
+
+/// Why a file was not examined that cannot be read.
+fn unread(path: &Path, error: &SourceError) -> NotExamined {
+    let (cause, at) = match error {
+        SourceError::Untaken { untaken, .. } => {
+            let at = untaken.iter().find_map(|one| one.nearest.clone());
+            let at = at.map(|(_, file, at)| (file, at.line, at.column));
+            (Cause::Arguments, Some(at.unwrap_or((stems(path).1, 1, 1))))
+        }
+        _ => (Cause::Unreadable, None),
+    };
+    answer::placed(answer::not_examined(cause, error.to_string()), at)
 }
 
 fn as_written(path: &Path, files: &Files) -> Option<String> {

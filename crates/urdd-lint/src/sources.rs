@@ -7,11 +7,12 @@ use thiserror::Error;
 use urdd_directory::cancellation::{Cancelled, Limit};
 use urdd_directory::file_type::FileType;
 use urdd_directory::watched::map_robots;
+use urdd_findings::answer::{not_examined, placed};
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::check::{Examined, blank};
 use urdd_findings::code::Code;
 use urdd_findings::finding::Finding;
-use urdd_format::report::Kind;
+use urdd_format::report::{Cause, Kind, NotExamined, Severity, Urdd};
 use urdd_source::arguments::{XacroArgument, declaration};
 use urdd_source::macros::has_no_link;
 use urdd_source::robots::{Batch, BatchError, Job, find};
@@ -115,11 +116,13 @@ pub fn seen_from(path: &Path, given: &[PathBuf]) -> String {
     }
 }
 
-/// What is found in a file that needs these arguments, and why it was not expanded.
+/// What is found in a file that needs these arguments, and why it was not expanded. `is_asked_for`: a person names the file,
+/// or declares robots of it, so that it is an error.
 pub fn lint_undeclared(
     path: &Path,
     needed: &[XacroArgument],
     fault: &XacroFault,
+    is_asked_for: bool,
     settings: &LintSettings,
 ) -> Examined {
     let name = stems(path).1;
@@ -134,6 +137,7 @@ pub fn lint_undeclared(
     let finding = |first: &XacroArgument| {
         let mut finding = Finding::in_file(name.as_str(), message.clone()).position(first.at);
         finding.place.subject = Some(format!("argument `{}`", first.name));
+        finding.severity = is_asked_for.then_some(Severity::Error);
         finding
     };
     let checks = rules_to_run(settings).map(|rule| match rule.description.code {
@@ -143,7 +147,12 @@ pub fn lint_undeclared(
         }
         _ => Check::skipped(&rule.description, NEEDS_ARGUMENTS),
     });
-    Examined { report: blank(Kind::Urdf, &name), checks: checks.collect() }
+    let words = format!("the robot needs {} (LNT065); {}", listed.join(", "), fault.reason);
+    let why = NotExamined { is_asked_for, ..not_examined(Cause::Arguments, words) };
+    let at = needed.first().and_then(|first| first.at);
+    let why = placed(why, at.map(|at| (name.clone(), at.line, at.column)));
+    let report = Urdd { not_examined: Some(why), ..blank(Kind::Urdf, &name) };
+    Examined { report, checks: checks.collect() }
 }
 
 /// A xacro file of which nobody declares a robot, and that needs arguments.

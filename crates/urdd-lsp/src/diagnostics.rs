@@ -15,7 +15,7 @@ use urdd_findings::check::{Check, Outcome};
 use urdd_findings::finding::Finding;
 use urdd_format::escape;
 use urdd_format::index::Count;
-use urdd_format::report::{Fix, Place, Severity, Verdict};
+use urdd_format::report::{Fix, Place, Severity};
 
 use crate::document::Snapshot;
 use crate::uri;
@@ -202,10 +202,9 @@ pub fn marked(snapshot: &Snapshot, offset: usize) -> Range<usize> {
 /// What kept rules from running to their end.
 pub fn failures(snapshot: &Snapshot, examined: &Examined) -> Vec<Found> {
     let mut failures = Vec::new();
-    if let (Verdict::Unreadable | Verdict::Incomplete, Some(reason)) =
-        (examined.report.verdict, &examined.report.reason)
-    {
-        failures.push(at_the_top(snapshot, DiagnosticSeverity::ERROR, reason));
+    let is_said = |examined: &Examined| examined.checks.iter().any(|check| !check.findings.is_empty());
+    if let Some(why) = examined.report.not_examined.as_ref().filter(|_| !is_said(examined)) {
+        failures.push(at_the_top(snapshot, DiagnosticSeverity::ERROR, &why.reason));
     }
     for check in &examined.checks {
         if let Outcome::Crashed(reason) = &check.outcome {

@@ -40,7 +40,8 @@ impl Project {
         let robots = declared(&file);
         let first =
             snapshot.path.clone().and_then(|path| robots_of(path, &robots).into_iter().next());
-        settings.source.xacro.arguments = first.map(|robot| robot.arguments).unwrap_or_default();
+        let arguments = first.map(|robot| robot.arguments).unwrap_or_default();
+        settings.source = settings.source.with_declared(&arguments);
         settings.report = file.settings;
         // The user's own comes first.
         let baseline = snapshot.options.baseline.clone().or(file.baseline);

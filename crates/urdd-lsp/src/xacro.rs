@@ -43,7 +43,8 @@ pub fn of_files(snapshot: &Snapshot, project: &Project) -> Vec<Found> {
     let read = match read_source(path, &settings.source) {
         Ok(read) => read,
         Err(SourceError::NeedsArguments { needed, fault, .. }) => {
-            let examined = lint_undeclared(path, &needed, &fault, settings);
+            let is_declared = !settings.source.xacro.arguments.is_empty();
+            let examined = lint_undeclared(path, &needed, &fault, is_declared, settings);
             let examined = project.apply(snapshot, examined);
             found.extend(failures(snapshot, &examined));
             found.extend(examined.checks.iter().flat_map(|check| of_check(snapshot, check)));

@@ -8,6 +8,7 @@ use urdd_directory::position::Position;
 use urdd_format::escape;
 
 use crate::fault::PlacedFault;
+use crate::untaken::Untaken;
 
 /// Maximum number of faults of a file that are shown one by one.
 const MOST_SHOWN: usize = 5;
@@ -34,6 +35,9 @@ pub enum SourceError {
         listed(needed)
     )]
     NeedsArguments { file: String, needed: Vec<XacroArgument>, fault: Box<XacroFault> },
+    /// xacro made a robot, without these arguments that are declared of the file: another one than was asked for.
+    #[error("{}: {}", escape::line(file), untaken_words(untaken))]
+    Untaken { file: String, untaken: Vec<Untaken> },
     /// A description of another format than URDF.
     #[error("{}{}: {}", escape::line(file), place(*line, *column), escape::line(fault))]
     Import { file: String, line: u32, column: u32, fault: String },
@@ -82,6 +86,7 @@ impl SourceError {
             SourceError::NoXacro { .. } => "no-xacro",
             SourceError::Xacro { .. } => "xacro-failed",
             SourceError::NeedsArguments { .. } => "needs-arguments",
+            SourceError::Untaken { .. } => "argument-not-taken",
             SourceError::Cancelled => "cancelled",
             SourceError::Internal { .. } => "internal",
         }
@@ -118,6 +123,23 @@ impl fmt::Display for XacroFault {
         f.write_str(&self.reason)?;
         self.further.iter().try_for_each(|line| write!(f, "; {line}"))
     }
+}
+
+/// What is wrong with declared arguments, and what to do.
+fn untaken_words(untaken: &[Untaken]) -> String {
+    let one = |one: &Untaken| {
+        let tip = match &one.nearest {
+            Some((like, file, at)) => {
+                format!("`{like}` ({file}:{at}) is like it: correct one of the two names")
+            }
+            None => "correct its name there, or remove it".to_owned(),
+        };
+        format!(
+            "urdd.toml gives the argument `{}`, which no file of the robot takes; {tip}",
+            one.name
+        )
+    };
+    escape::line(&untaken.iter().map(one).collect::<Vec<_>>().join("; ")).into_owned()
 }
 
 /// Arguments, on one line.

@@ -35,6 +35,7 @@ mod settings;
 mod suggested;
 #[cfg(test)]
 mod tests;
+mod untaken;
 pub mod urdf;
 pub mod written;
 mod xacro;
@@ -58,5 +59,6 @@ pub use roots::Place;
 pub use settings::{
     Declared, ImportOptions, Settings, XACRO_TIMEOUT, XacroSettings, declared_of, robots_of,
 };
+pub use untaken::Untaken;
 pub use urdf::cycles;
 pub use xacro::{Trail, included};

@@ -20,6 +20,7 @@ use crate::settings::Settings;
 use crate::suggested::deciding;
 use crate::urdf::{self, Reading};
 use crate::written::Origin;
+use crate::untaken::untaken;
 use crate::xacro::{self, Trail};
 
 /// Maximum number of repair rounds; one is enough unless this program has a bug.
@@ -177,6 +178,11 @@ fn read(path: &Path, settings: &Settings, notes: &mut Vec<Note>) -> Result<Read,
             let (xacro, packages) = (&settings.xacro, &settings.packages);
             let expanded = xacro::expand(path, &shown, xacro, packages, &settings.cancellation);
             let (text, trail) = expanded.map_err(|error| explained(error, path, settings))?;
+            let declared = settings.xacro.arguments.iter().take(settings.xacro.declared);
+            let untaken = untaken(&canonical, &trail, declared);
+            if !untaken.is_empty() {
+                return Err(SourceError::Untaken { file: shown, untaken });
+            }
             (text, Some(trail))
         }
         (true, Files::Memory(_)) => {

@@ -53,6 +53,7 @@ impl Settings {
     pub fn with_declared(&self, arguments: &[String]) -> Settings {
         let mut settings = self.clone();
         settings.xacro.arguments = arguments.iter().chain(&self.xacro.arguments).cloned().collect();
+        settings.xacro.declared = arguments.len();
         settings
     }
 }
@@ -64,6 +65,8 @@ pub struct XacroSettings {
     pub expand_urdf: bool,
     /// Arguments for the file, each as `name:=value`.
     pub arguments: Vec<String>,
+    /// How many of them, from the first, are declared of the file: it has to take these.
+    pub declared: usize,
     /// Time limit of the program.
     pub time_limit: Duration,
 }
@@ -87,6 +90,7 @@ impl Default for XacroSettings {
         XacroSettings {
             expand_urdf: false,
             arguments: Vec::new(),
+            declared: 0,
             time_limit: Duration::from_secs(60),
         }
     }

@@ -43,8 +43,8 @@ pub fn examine_urdf_file(found: &Found, rules: &[&'static Rule]) -> Result<Exami
 
 /// Examines the text of a URDF with the rules that need nothing else. `name` is its name in the report.
 pub fn examine_urdf(xml: &Xml<'_>, name: &str) -> Examined {
-    Examined::caught::<ReadError>(Kind::Urdf, name, || {
-        let urdf = CarriedUrdf::of_bytes(name, xml.text().as_bytes())?;
+    Examined::caught(Kind::Urdf, name, || {
+        let urdf = CarriedUrdf::of_bytes(name, xml.text().as_bytes()).map_err(crate::unread)?;
         // A byte order mark is not part of the URDF.
         let reading = (urdf.text == xml.text()).then(|| urdf_text::of(xml));
         Ok(examine_carried(urdf, reading, name, &rules::all()))

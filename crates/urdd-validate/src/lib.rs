@@ -73,10 +73,11 @@ use urdd_directory::source::Source;
 use urdd_directory::watched::{map_robots, watched};
 use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
+use urdd_findings::answer;
 use urdd_findings::check::Examined;
 use urdd_findings::description::Severity;
 use urdd_findings::places;
-use urdd_format::report::{Kind, Status};
+use urdd_format::report::{Cause, Kind, NotExamined, Status};
 use urdd_xml::Xml;
 
 /// Why a run has no result.
@@ -128,17 +129,19 @@ pub fn validate_with<P: AsRef<Path>>(
         let rules = Arc::clone(&all_rules);
         let work = move |cancellation: &Cancellation| {
             let settings = Settings { cancellation: cancellation.clone(), ..settings };
-            Examined::caught(kind, &own.name, || match (kind, &own.closed) {
+            let examine = || match (kind, &own.closed) {
                 (Kind::Urdf, _) => engine::examine_urdf_file(&own, &rules),
                 (Kind::Urdd, Some(error)) => Err(error.clone()),
                 (Kind::Urdd, None) => {
                     Ok(examine(Urdd::read(&own.path)?, &own.name, &settings, &rules))
                 }
-            })
+            };
+            Examined::caught(kind, &own.name, || examine().map_err(unread))
         };
         let examined = watched(run, &found.name, work);
-        let mut examined =
-            examined.unwrap_or_else(|limit| Examined::beyond(limit, kind, &found.name));
+        let mut examined = examined.unwrap_or_else(|limit| {
+            Examined::without_checks(kind, &found.name, answer::beyond(limit))
+        });
         places::trim(&mut examined.checks, kept);
         examined
     };
@@ -146,6 +149,11 @@ pub fn validate_with<P: AsRef<Path>>(
     settings.cancellation.check()?;
     let folders = all.into_iter().map(|(_, found)| found.path);
     Ok(Run::of(examined, folders.collect(), excluded, settings))
+}
+
+/// Why a URDD or URDF was not examined that cannot be read.
+pub(crate) fn unread(error: ReadError) -> NotExamined {
+    answer::not_examined(Cause::Unreadable, error.to_string())
 }
 
 /// The URDF at a path: its folder, and its file name.
@@ -194,8 +202,8 @@ fn run_of(
     urdf: Option<urdf_text::Reading>,
     load: impl FnOnce() -> Result<Urdd, ReadError>,
 ) -> Result<Run, ValidateError> {
-    let examined = Examined::caught::<ReadError>(Kind::Urdd, name, || {
-        Ok(examine_with(load()?, urdf, name, settings, &rules::all()))
+    let examined = Examined::caught(Kind::Urdd, name, || {
+        Ok(examine_with(load().map_err(unread)?, urdf, name, settings, &rules::all()))
     });
     settings.cancellation.check()?;
     Ok(alone(examined, name.into(), settings))

@@ -236,7 +236,12 @@ pub fn entry_with(robot: &Shown, report: &str) -> Value {
     let found = &report["urdds"][0];
     entry["links"] = found["size"]["links"].clone();
     entry["dofs"] = found["size"]["dofs"].clone();
-    entry["verdict"] = found["verdict"].clone();
+    let has = |key: &str| found[key].as_array().is_some_and(|all| !all.is_empty());
+    let is_in_part = has("geometry_not_verified") || found["model_not_verified"].is_object();
+    entry["verdict"] = match found["verdict"].as_str() {
+        Some("pass") if is_in_part => json!("part"),
+        _ => found["verdict"].clone(),
+    };
     let total = |key: &str| report["totals"][key].clone();
     entry["findings"] =
         json!({ "error": total("error"), "warning": total("warning"), "info": total("info") });

@@ -63,7 +63,7 @@ export function findings(app: App): HTMLElement {
       button.setAttribute("aria-pressed", String(!off.has(severity)));
       button.hidden = n === 0;
     }
-    verdict.className = `verdict ${urdd?.verdict ?? ""}`;
+    verdict.className = `verdict ${urdd ? answer(urdd) : ""}`;
     tools.hidden = !urdd;
     search.hidden = by.hidden = (urdd?.findings.length ?? 0) < 2;
     chips.show(urdd);
@@ -120,17 +120,29 @@ function sum(findings: readonly Finding[]): number {
   return findings.reduce((sum, { count }) => sum + count, 0);
 }
 
+/** The verdict, where a pass of which a part was not examined is none. */
+function answer(urdd: UrddReport): string {
+  const open = urdd.geometry_not_verified.length > 0 || urdd.model_not_verified !== null;
+  return urdd.verdict === "pass" && open ? "part" : urdd.verdict;
+}
+
 function words(urdd: UrddReport, counts: ReturnType<typeof tally>): string {
   const found = `${count(counts.all, "finding")}: ${count(counts.error, "error")}, ${count(counts.warning, "warning")}, ${counts.info} info.`;
   switch (urdd.verdict) {
-    case "pass":
+    case "pass": {
+      const links = urdd.geometry_not_verified.length;
+      if (answer(urdd) === "part") {
+        const open = links > 0 ? `the geometry of ${count(links, "link")}` : "the self-collision model";
+        return `Passes in part: ${open} was not examined. ${found}`;
+      }
       return urdd.findings.length === 0 ? "Passes: no findings." : `Passes. ${found}`;
+    }
     case "fail":
       return `Fails. ${found}`;
     case "incomplete":
       return `Not fully examined: ${urdd.reason ?? "the validator stopped"}`;
     default:
-      return `Cannot be read: ${urdd.reason ?? ""}`;
+      return `Not examined: ${urdd.reason ?? ""}`;
   }
 }
 
@@ -219,23 +231,25 @@ function keys(state: Readonly<State>): Node[] {
 
 /** What was not verified: grey, not green. Rules about missing modules come last. */
 function notVerified(urdd: UrddReport): Node[] {
-  if (urdd.not_checked.length === 0) return [];
+  const links = urdd.geometry_not_verified;
+  if (urdd.not_checked.length === 0 && links.length === 0) return [];
+  const reasons = [...new Set(links.flatMap((link) => link.reasons))];
   return [
-    h("h2", {}, "Not verified"),
+    h("h2", {}, "Not examined"),
+    ...(links.length > 0 ? [unexamined(`the geometry of ${count(links.length, "link")}`, reasons)] : []),
     ...urdd.not_checked.map(({ codes, reason }) =>
-      h(
-        "article",
-        { class: "finding unverified" },
-        h(
-          "div",
-          { class: "heading" },
-          h("span", { class: "dot unverified" }),
-          h("strong", {}, codes.slice(0, 6).join(", ") + (codes.length > 6 ? ` and ${codes.length - 6} more` : "")),
-        ),
-        h("p", {}, ...prose(name(reason))),
-      ),
+      unexamined(codes.slice(0, 6).join(", ") + (codes.length > 6 ? ` and ${codes.length - 6} more` : ""), [reason]),
     ),
   ];
+}
+
+function unexamined(what: string, reasons: readonly string[]): HTMLElement {
+  return h(
+    "article",
+    { class: "finding unverified" },
+    h("div", { class: "heading" }, h("span", { class: "dot unverified" }), h("strong", {}, what)),
+    ...reasons.map((reason) => h("p", {}, ...prose(name(reason)))),
+  );
 }
 
 /** A finding: its message, its places, and the explanation of its rule. */

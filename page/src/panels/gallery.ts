@@ -144,7 +144,8 @@ function words({ ready, making, failure, verdict, findings }: Entry): string {
   if (verdict === null) return "";
   const [errors, warnings] = [findings?.error ?? 0, findings?.warning ?? 0];
   const passes = warnings > 0 ? `passes, ${count(warnings, "warning")}` : "passes";
-  return { pass: passes, fail: `fails: ${count(errors, "error")}` }[verdict] ?? verdict;
+  const fails = `fails: ${count(errors, "error")}`;
+  return { pass: passes, part: `${passes} in part`, fail: fails, unreadable: "not examined" }[verdict] ?? verdict;
 }
 
 function isMade({ ready, making }: Entry): boolean {

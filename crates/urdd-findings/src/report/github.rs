@@ -5,11 +5,11 @@ use std::fmt::{self, Write};
 
 use super::human::{self, times};
 use super::programs::cell;
-use super::style::unit;
+use super::style::{NOT_EXAMINED, is_a_finding, unit};
 use crate::run::{file_in, is_inside};
 use urdd_format::escape;
 use urdd_format::readable::counted;
-use urdd_format::report::{Kind, Report, Severity, Status, Urdd, Verdict};
+use urdd_format::report::{Kind, Report, Severity, Status, Urdd};
 
 /// Writes the report. `places` are the folders of its URDDs (see [`super::place::places`]).
 ///
@@ -17,12 +17,21 @@ use urdd_format::report::{Kind, Report, Severity, Status, Urdd, Verdict};
 /// If writing fails.
 pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::Result {
     for (urdd, place) in report.urdds.iter().zip(places) {
-        if let Some(reason) = &urdd.reason {
+        if let Some(why) = urdd.not_examined.as_ref().filter(|_| !is_a_finding(urdd)) {
             // A folder is no file that Actions shows.
             let name = urdd.path.rsplit('/').next().filter(|_| urdd.kind == Kind::Urdf);
-            let file = property(&file_in(place, name));
-            let verdict = urdd.verdict.as_str();
-            writeln!(out, "::error file={file},title={verdict}::{}", data(reason))?;
+            let known = why.file.as_deref().filter(|file| is_inside(place, Some(file)));
+            let command = if why.is_asked_for { "error" } else { "warning" };
+            write!(out, "::{command} file={}", property(&file_in(place, known.or(name))))?;
+            if let (Some(_), Some(line)) = (known, why.line) {
+                write!(out, ",line={line}")?;
+                why.column.map_or(Ok(()), |column| write!(out, ",col={column}"))?;
+            }
+            let mut text = why.reason.clone();
+            for argument in &urdd.xacro_arguments {
+                text += &format!("; with {argument}");
+            }
+            writeln!(out, ",title={}::{}", NOT_EXAMINED, data(&text))?;
         }
         for check in urdd.checks.iter().filter(|check| check.status == Status::Crashed) {
             let reason = data(check.reason.as_deref().unwrap_or_default());
@@ -89,9 +98,13 @@ pub fn markdown(report: &Report, out: &mut impl Write) -> fmt::Result {
     let totals = &report.totals;
     writeln!(
         out,
-        "### `urdd`: {}, {} failed\n\n{}, {}, {}.\n",
+        "### `urdd`: {}, {} failed{}\n\n{}, {}, {}.\n",
         counted(totals.urdds.get(), unit(report)),
-        report.urdds.iter().filter(|urdd| urdd.verdict != Verdict::Pass).count(),
+        totals.failed,
+        match totals.not_examined.get() {
+            0 => String::new(),
+            count => format!(", {count} {NOT_EXAMINED}"),
+        },
         counted(totals.error.get(), "error"),
         counted(totals.warning.get(), "warning"),
         counted(totals.info.get(), "info"),
@@ -133,8 +146,10 @@ fn findings(urdd: &Urdd) -> String {
         let alike = urdd.findings.iter().filter(|finding| finding.severity == severity);
         alike.map(|finding| finding.count.get()).sum()
     };
+    if let Some(why) = &urdd.not_examined {
+        return format!("{NOT_EXAMINED}: {}", in_table(&why.reason));
+    }
     match [Severity::Error, Severity::Warning].map(count) {
-        _ if urdd.verdict == Verdict::Unreadable => "unreadable".to_owned(),
         [0, 0] => String::new(),
         [0, warnings] => counted(warnings, "warning"),
         [errors, 0] => counted(errors, "error"),

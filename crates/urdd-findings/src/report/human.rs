@@ -12,14 +12,15 @@ use urdd_format::escape::{self, line as safe};
 use urdd_format::readable::{counted, number};
 use urdd_format::registry::ModuleKind;
 
-use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, list, severity, unit, unverified};
+use super::style::{
+    BOLD, DIM, GREEN, RED, Style, YELLOW, is_a_finding, is_in_part, list, severity, unit, unverified,
+};
 use super::{programs, summary};
-use crate::code::Code;
 use crate::part::SkipReason;
 use crate::run::by_reason;
 use urdd_format::report::{
-    CheckStatus, Deed, Finding, ImportedFrom, Kind, Magnitude, Place, Report, Skipped, Status,
-    Urdd, Verdict,
+    Cause, CheckStatus, Deed, Finding, ImportedFrom, Kind, Magnitude, NotExamined, Place, Report,
+    Skipped, Status, Urdd, Verdict,
 };
 
 /// Maximum number of URDDs that are shown one by one. More are summarized.
@@ -32,9 +33,9 @@ pub const FEW: usize = 3;
 pub fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
     let many = report.urdds.len() > FEW;
     for urdd in &report.urdds {
-        let unread = matches!(urdd.verdict, Verdict::Unreadable | Verdict::Incomplete);
+        let open = urdd.not_examined.is_some() || urdd.verdict == Verdict::Incomplete;
         let silent = style.quiet && urdd.verdict == Verdict::Pass && urdd.findings.is_empty();
-        if !silent && (!many || style.full || unread) {
+        if !silent && (!many || style.full || open) {
             write_urdd(urdd, style, many && !style.full, out)?;
         }
     }
@@ -53,23 +54,15 @@ pub fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result
     write_totals(report, style, out)
 }
 
-/// What is said of a robot that needs arguments.
-const NOT_CHECKED: &str = "not checked";
-
-/// Whether it is a robot that nobody could make: it needs arguments.
-fn needs_arguments(urdd: &Urdd) -> bool {
-    let code = Code::LNT065.as_str();
-    urdd.verdict == Verdict::Pass && urdd.findings.iter().any(|finding| finding.code == code)
-}
-
 /// Writes one URDD; if `brief`, only why it was not fully examined.
 fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> fmt::Result {
-    let verdict = match urdd.verdict {
-        Verdict::Pass if needs_arguments(urdd) => style.paint(YELLOW, NOT_CHECKED),
-        Verdict::Pass => style.paint(GREEN, "pass"),
-        Verdict::Fail => style.paint(RED, "FAIL"),
-        Verdict::Unreadable => style.paint(RED, "UNREADABLE"),
-        Verdict::Incomplete => style.paint(RED, "INCOMPLETE"),
+    let verdict = match (urdd.verdict, &urdd.not_examined) {
+        (Verdict::Incomplete, _) => style.paint(RED, "INCOMPLETE"),
+        (_, Some(why)) if !why.is_asked_for => style.paint(YELLOW, "not examined"),
+        (Verdict::Unreadable, _) | (_, Some(_)) => style.paint(RED, "NOT EXAMINED"),
+        (Verdict::Pass, None) if is_in_part(urdd) => style.paint(YELLOW, "pass in part"),
+        (Verdict::Pass, None) => style.paint(GREEN, "pass"),
+        (Verdict::Fail, None) => style.paint(RED, "FAIL"),
     };
     writeln!(
         out,
@@ -77,12 +70,12 @@ fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> f
         style.paint(BOLD, safe(&urdd.label())),
         style.paint(DIM, describe(urdd))
     )?;
-    if let Some(reason) = &urdd.reason {
-        let what = match urdd.verdict {
-            Verdict::Unreadable => "it cannot be read: ",
-            _ => "",
-        };
-        writeln!(out, "  {what}{}", safe(reason))?;
+    if let Some(why) = urdd.not_examined.as_ref().filter(|_| !is_a_finding(urdd)) {
+        if let Some(at) = place_of(why) {
+            writeln!(out, "  at {}", safe(&at))?;
+        }
+        let what = if why.cause == Cause::Unreadable { "it cannot be read: " } else { "" };
+        writeln!(out, "  {what}{}", safe(&why.reason))?;
     }
     if !brief {
         write_findings(urdd, style, out)?;
@@ -103,7 +96,7 @@ fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> f
             write_imported(imported, style, out)?;
         }
         write_programs(urdd, style, out)?;
-        let is_read = urdd.verdict != Verdict::Unreadable;
+        let is_read = urdd.not_examined.is_none();
         if style.suggests_lint && urdd.kind == Kind::Urdf && is_read {
             let hint =
                 "this is a URDF: `urdd lint` finds more in it, `urdd generate` makes a URDD of it";
@@ -111,6 +104,14 @@ fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> f
         }
     }
     writeln!(out)
+}
+
+/// The place of a reason, as `file:line:column`.
+pub(super) fn place_of(why: &NotExamined) -> Option<String> {
+    let file = why.file.clone()?;
+    let line = why.line.map(|line| format!(":{line}")).unwrap_or_default();
+    let column = why.column.map(|column| format!(":{column}")).unwrap_or_default();
+    Some(file + &line + &column)
 }
 
 fn write_findings(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
@@ -317,13 +318,19 @@ fn write_programs(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Resul
 
 fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
     let totals = &report.totals;
-    let not_checked = report.urdds.iter().filter(|urdd| needs_arguments(urdd)).count();
+    let not_examined = report.urdds.iter().filter(|urdd| urdd.not_examined.is_some()).count();
+    let crashed = report.urdds.iter().filter(|urdd| urdd.verdict == Verdict::Incomplete);
+    let parts = report.urdds.iter().filter(|urdd| urdd.verdict == Verdict::Pass && is_in_part(urdd));
+    let parts = match parts.count() {
+        0 => String::new(),
+        count => format!(" ({count} in part)"),
+    };
+    let passed = format!("passed{parts}");
     let verdicts = [
-        (report.count(Verdict::Pass).saturating_sub(not_checked), "passed"),
+        (report.count(Verdict::Pass), passed.as_str()),
         (report.count(Verdict::Fail), "failed"),
-        (report.count(Verdict::Unreadable), "unreadable"),
-        (report.count(Verdict::Incomplete), "incomplete"),
-        (not_checked, NOT_CHECKED),
+        (crashed.filter(|urdd| urdd.not_examined.is_none()).count(), "incomplete"),
+        (not_examined, "not examined"),
     ];
     let some = verdicts.into_iter().filter(|(count, _)| *count > 0);
     let verdicts: Vec<String> = some.map(|(count, word)| format!("{count} {word}")).collect();

@@ -59,11 +59,13 @@ impl Suite {
         let checks = urdd.checks.iter();
         let case = |check| case(run, urdd, check, fail_on);
         let mut cases: Vec<Case> = checks.map(case).collect();
-        if let Some(reason) = &urdd.reason {
-            let kind = urdd.verdict.as_str().to_owned();
-            let outcome = ("error", kind, allowed(reason), String::new());
+        if let Some(why) = &urdd.not_examined {
+            let element = if why.is_asked_for { "error" } else { "skipped" };
+            let at = human::place_of(why).map(|at| format!("{at}: ")).unwrap_or_default();
+            let text = allowed(&(at + &why.reason));
+            let outcome = (element, why.cause.as_str().to_owned(), text, String::new());
             cases.push(Case {
-                name: "the folder can be read".to_owned(),
+                name: "it was examined".to_owned(),
                 outcome: Some(outcome),
                 output: String::new(),
             });

@@ -10,14 +10,16 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::human::macro_of;
-use super::style::unverified;
+use super::style::{NOT_EXAMINED, is_a_finding, unverified};
 use crate::code::Code;
 use crate::description::Description;
 use crate::run::{Run, file_in, is_inside};
 use urdd_format::escape;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::readable::number;
-use urdd_format::report::{CheckStatus, Finding, Fix, Place, Severity, Status, Urdd, Verdict};
+use urdd_format::report::{
+    CheckStatus, Finding, Fix, Kind, NotExamined, Place, Severity, Status, Urdd,
+};
 
 /// Base of relative paths: the working directory, under the name that readers of SARIF use for the root of a
 /// repository.
@@ -72,7 +74,10 @@ pub fn sarif(run: &Run, places: &[String], exit_code: u8) -> serde_json::Result<
     if !homepage.is_empty() {
         driver["informationUri"] = json!(homepage);
     }
-    driver["rules"] = rules.values().map(|rule| describe(rule)).collect();
+    let mut descriptions: Vec<Value> = rules.values().map(|rule| describe(rule)).collect();
+    let has_open = report.urdds.iter().any(|urdd| unexamined(urdd).is_some());
+    descriptions.extend(has_open.then(describe_unexamined));
+    driver["rules"] = json!(descriptions);
     let log = json!({
         "$schema": "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json",
         "version": "2.1.0",
@@ -184,7 +189,45 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
         result["partialFingerprints"] = json!({"urddFinding/v1": fingerprint(&kind, *nth)});
         result
     };
-    urdd.findings.iter().map(result).collect()
+    let mut results: Vec<Value> = urdd.findings.iter().map(result).collect();
+    results.extend(unexamined(urdd).map(|why| {
+        let at = Place { file: why.file.clone(), line: why.line, column: why.column, ..Place::default() };
+        let at = if is_inside(place, at.file.as_deref()) { at } else { Place::default() };
+        let name = urdd.path.rsplit('/').next().filter(|_| urdd.kind == Kind::Urdf);
+        let at = Place { file: at.file.or_else(|| name.map(str::to_owned)), ..at };
+        let with = urdd.xacro_arguments.join(" ");
+        let with = if with.is_empty() { with } else { format!("\nWith: {}", escape::line(&with)) };
+        let kind = [UNEXAMINED.to_owned(), urdd.label_at(&file_in(place, name)), String::new()];
+        json!({
+            "ruleId": UNEXAMINED,
+            "ruleIndex": rules.len(),
+            "level": if why.is_asked_for { "error" } else { "warning" },
+            "message": message(&(escape::line(&why.reason).into_owned() + &with)),
+            "locations": [location(place, &at)],
+            "partialFingerprints": {"urddFinding/v1": fingerprint(&kind, 1)},
+        })
+    }));
+    results
+}
+
+/// The id of the results for what was not examined; no rule has it.
+const UNEXAMINED: &str = "not-examined";
+
+/// Why something was not examined, where no finding says it.
+fn unexamined(urdd: &Urdd) -> Option<&NotExamined> {
+    urdd.not_examined.as_ref().filter(|_| !is_a_finding(urdd))
+}
+
+fn describe_unexamined() -> Value {
+    let text = "Nothing is known of this robot: it was not examined, so it does not pass.";
+    json!({
+        "id": UNEXAMINED,
+        "name": UNEXAMINED,
+        "shortDescription": {"text": NOT_EXAMINED},
+        "fullDescription": {"text": text},
+        "help": {"text": text, "markdown": text},
+        "defaultConfiguration": {"level": "error"},
+    })
 }
 
 /// The whole finding as one text: few readers show other fields of a result.
@@ -301,13 +344,11 @@ fn artifact(urdd: &str, file: Option<&str>) -> Value {
 fn notifications(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
     let locations = [folder(place)];
     let mut notifications = Vec::new();
-    if let Some(reason) = &urdd.reason {
-        let text = match urdd.verdict {
-            Verdict::Unreadable => format!("the folder cannot be read: {reason}"),
-            _ => reason.clone(),
-        };
+    if let Some(why) = &urdd.not_examined {
+        let text = format!("{NOT_EXAMINED}: {}", why.reason);
+        let level = if why.is_asked_for { "error" } else { "warning" };
         notifications
-            .push(json!({"level": "error", "message": message(&text), "locations": locations}));
+            .push(json!({"level": level, "message": message(&text), "locations": locations}));
     }
     let crashed = |check: &&CheckStatus| check.status == Status::Crashed;
     for check in urdd.checks.iter().filter(crashed) {

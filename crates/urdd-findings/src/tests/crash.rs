@@ -1,13 +1,13 @@
 //! A crash outside of any rule.
 
 use crate::check::Examined;
-use urdd_format::report::{Kind, Verdict};
+use urdd_format::report::{Cause, Kind, NotExamined};
 
 #[test]
 fn a_crash_outside_of_any_rule_is_said_of_its_urdd() {
-    let crash = || -> Result<Examined, String> { panic!("at index {}", 7) };
+    let crash = || -> Result<Examined, NotExamined> { panic!("at index {}", 7) };
     let examined = Examined::caught(Kind::Urdd, "a", crash);
-    assert_eq!(examined.report.verdict, Verdict::Incomplete);
-    let reason = examined.report.reason.expect("a reason");
-    assert!(reason.starts_with("the program crashed: at index 7;"));
+    let why = examined.report.not_examined.expect("a reason");
+    assert_eq!(why.cause, Cause::Crash);
+    assert!(why.reason.starts_with("the program crashed: at index 7;"));
 }

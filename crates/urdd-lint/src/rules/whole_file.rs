@@ -37,7 +37,8 @@ declare_lint! {
     ///
     /// An argument has no default, or one for which the package has no files or the file leaves a property undefined
     /// (`<xacro:if value="${side == 'left'}">`), or `<robot>` itself names it (xacro reads `<robot name="$(arg name)">` before
-    /// any default), and nobody gives a value. Then there is no robot, and no other rule looks at the file.
+    /// any default), and nobody gives a value. Then there is no robot, no other rule looks at the file, and it does not pass: it
+    /// was not examined. Of a file that is named, or of which `urdd.toml` declares robots, it is an error.
     ///
     /// Declare the robots of the file in `urdd.toml`: `urdd lint --write-robots` writes the lines of the message, with the
     /// values for which the package has files, and `urdd info` lists all arguments. Or give values, as in
