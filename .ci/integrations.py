@@ -25,6 +25,8 @@ VERSION = tomllib.loads((ROOT / "Cargo.toml").read_text(encoding="utf-8"))["pack
 RIGHT = '<?xml version="1.0"?>\n<robot name="right">\n  <link name="base"/>\n</robot>\n'
 WRONG = '<?xml version="1.0"?>\n<robot name="wrong">\n  <link name="base"/>\n  <link name="base"/>\n</robot>\n'
 
+MACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="part" params="name"/></robot>\n'
+
 
 class Tried:
     """A folder with a git repository of two robots, and programs that run there."""
@@ -121,7 +123,8 @@ def pre_commit(tried: Tried) -> None:
     assert len(local) == 1, "docs/ci.md has one example of pre-commit with the wheel"
     for one in local[0]["repos"][0]["hooks"]:
         one["additional_dependencies"] = [f"urdd=={VERSION}"]
-        one["args"] = ["arm"] if one["id"] == "urdd-validate" else []
+        one["additional_dependencies"] += ["xacro==2.1.1"] if one["id"] == "urdd-lint" else []
+        one["args"] = ["arm"] if one["id"] == "urdd-validate" else ["."]
     hook(tried, local[0]["repos"][0])
 
 
@@ -129,11 +132,17 @@ def hook(tried: Tried, repository: dict[str, object]) -> None:
     configuration = tried.folder.parent / "hooks.yaml"
     configuration.write_text(yaml.safe_dump({"repos": [repository]}), encoding="utf-8")
     run = ("pre-commit", "run", "--color=never", "--config", str(configuration))
+    # All robots of the repository are checked, whichever file changed: a macro or a YAML file is one of each robot.
+    (tried.folder / "macro.xacro").write_text(MACRO, encoding="utf-8")
+    for changed in ("right.urdf", "macro.xacro"):
+        said = tried.run(1, *run, "--files", changed)
+        assert re.search(r"urdd lint\.+Failed", said) and "wrong one.urdf" in said, said
+    settings = tried.folder / "urdd.toml"
+    settings.write_text('exclude = ["wrong one.urdf"]\n', encoding="utf-8")
     said = tried.run(0, *run, "--files", "right.urdf")
     assert said.count("Passed") == 2, said
-    said = tried.run(1, *run, "--files", "right.urdf", "wrong one.urdf")
-    assert re.search(r"urdd lint\.+Failed", said), said
-    assert re.search(r"urdd validate\.+Passed", said), said
+    settings.unlink()
+    (tried.folder / "macro.xacro").unlink()
     said = tried.run(0, *run, "--files", "arm/dof_module/module.json")
     assert re.search(r"urdd lint\.+.*Skipped", said), said
     assert re.search(r"urdd validate\.+Passed", said), said

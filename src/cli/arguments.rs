@@ -269,3 +269,12 @@ pub fn parser(words: &[Word]) -> PossibleValuesParser {
     };
     words.iter().map(value).collect::<Vec<_>>().into()
 }
+
+/// How a command answers that writes files.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum AnswerFormat {
+    /// Text for people.
+    Human,
+    /// JSON, the same as --report writes.
+    Json,
+}

@@ -11,7 +11,8 @@ use super::watch::Watch;
 use urdd_directory::account::Account;
 use urdd_directory::limits::MAX_SPHERES_BYTES;
 use urdd_export::{
-    ImportedSkips, Sphere, SphereList, import_spheres, import_srdf, import_states, read_spheres,
+    ImportedSkips, ImportedSpheres, Sphere, SphereList, Unnamed, import_spheres, import_srdf,
+    import_states, read_spheres,
 };
 use urdd_format::escape;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
@@ -97,6 +98,7 @@ pub enum SpheresCommand {
         after_help = "The list becomes the last level of link_shapes_spheres_module, in place of fitted spheres; levels that cover the links are \
         made around it. How well it fits, and how often it is right, is measured. `urdd generate` with `--modules all,link_shapes_spheres` \
         keeps it.\n\n\
+        Links that the list does not name keep the spheres that they have, unless --alone is given; both are said.\n\n\
         Of a URDF, spheres are the spheres of its collision elements. Spheres of links that the robot does not have, or that have no shape, \
         are named and left out.\n\n\
         Exit status: 0 imported; 2 nothing was written."
@@ -109,19 +111,27 @@ pub enum SpheresCommand {
         /// The URDD: a folder.
         #[arg(value_name = "DIR")]
         urdd: PathBuf,
+
+        /// Links that the list does not name get no spheres; by default they keep those that they have.
+        #[arg(long)]
+        alone: bool,
     },
 }
 
 pub fn spheres(command: &SpheresCommand, watch: &Watch) -> Result<u8, Failure> {
-    let SpheresCommand::Import { list, urdd } = command;
+    let SpheresCommand::Import { list, urdd, alone } = command;
+    let unnamed = if *alone { Unnamed::Clear } else { Unnamed::Keep };
     watch.run_one(urdd, None, |cancellation| {
         let account = Account::new(cancellation);
         let spheres = spheres_of(list, &account)?;
         let told = edited(urdd, ModuleKind::LinkShapesSpheres, |robot| {
-            let imported = import_spheres(robot, &spheres, &account).map_err(about(list))?;
+            let imported =
+                import_spheres(robot, &spheres, unnamed, &account).map_err(about(list))?;
             let last = imported.module.levels.last();
             let mut told =
                 format!("{}: {} imported\n", shown(urdd), counted(imported.taken, "sphere"));
+            let names = robot.link_names().map_err(about(urdd))?;
+            told += &unnamed_links(&imported, names);
             if let Some(level) = last {
                 let of = &level.evaluation;
                 told += &format!(
@@ -130,7 +140,7 @@ pub fn spheres(command: &SpheresCommand, watch: &Watch) -> Result<u8, Failure> {
                     of.miss_rate(),
                     of.false_contact_rate()
                 );
-                told += &always(&level.always_pairs, robot.link_names().map_err(about(urdd))?);
+                told += &always(&level.always_pairs, names);
             }
             told += &left_out(&imported.left_out);
             Ok(Edited { files: imported.files, told })
@@ -138,6 +148,29 @@ pub fn spheres(command: &SpheresCommand, watch: &Watch) -> Result<u8, Failure> {
         output::print(&told)?;
         Ok(0)
     })
+}
+
+/// What became of the links that the list does not name; empty without one.
+fn unnamed_links(imported: &ImportedSpheres, links: &[String]) -> String {
+    let listed = |all: &[usize]| {
+        let name =
+            |link: &usize| format!("`{}`", one_line(links.get(*link).map_or("", String::as_str)));
+        first_of(all.iter().map(name), MOST_NAMED)
+    };
+    let mut told = String::new();
+    if !imported.kept.is_empty() {
+        told += &format!(
+            "  not in the list, so they keep their spheres (--alone removes them): {}\n",
+            listed(&imported.kept)
+        );
+    }
+    if !imported.bare.is_empty() {
+        told += &format!(
+            "  without spheres, so that a check by this list calls all that touches them free: {}\n",
+            listed(&imported.bare)
+        );
+    }
+    told
 }
 
 /// What pairs of links that touch in every configuration mean, and what to do; empty without one.

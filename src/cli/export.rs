@@ -6,7 +6,7 @@ use clap::builder::TypedValueParser;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use serde_json::Value;
 
-use super::arguments::parser;
+use super::arguments::{AnswerFormat, parser};
 use super::inputs;
 use super::output::{self, Failure, about, shown};
 use super::watch::Watch;
@@ -54,6 +54,10 @@ pub struct ExportArguments {
     /// Writes what was carried, carried otherwise and lost of this robot to a file, as JSON.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
+
+    /// Format of the answer on standard output: nothing, or JSON as --report writes it.
+    #[arg(long = "format", value_name = "FORMAT", value_enum, default_value_t = AnswerFormat::Human)]
+    answer: AnswerFormat,
 
     /// Overwrites existing files.
     #[arg(long)]
@@ -199,7 +203,15 @@ fn write_robot(arguments: &ExportArguments, format: Format) -> Result<(), Failur
         let how = if format == Format::Usd { "by piece" } else { "as a whole" };
         output::error(&format!("note: --keep-pairs checks these pairs of links {how}"));
     }
-    write(arguments, output, made)
+    let is_json = arguments.answer == AnswerFormat::Json;
+    if is_json && output.as_os_str() == "-" {
+        Err(
+            "standard output can have the file or the answer: give a file with -o, or leave out --format json",
+        )?;
+    }
+    let report = is_json.then(|| made.report.clone());
+    write(arguments, output, made)?;
+    report.map_or(Ok(()), |report| Ok(output::print(&report)?))
 }
 
 fn choices(arguments: &ExportArguments, robot: &Robot) -> Result<Choices, Failure> {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::PackageArguments;
+use super::arguments::{AnswerFormat, PackageArguments};
 use super::output::{self, Failure, shown};
 use super::watch::Watch;
 use urdd_directory::cancellation::Cancellation;
@@ -36,6 +36,10 @@ pub struct ImportArguments {
     /// Writes what was carried, carried otherwise and lost of this robot to a file, as JSON.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
+
+    /// Format of the answer on standard output.
+    #[arg(long, value_enum, default_value_t = AnswerFormat::Human)]
+    format: AnswerFormat,
 
     /// Overwrites existing files.
     #[arg(long)]
@@ -77,6 +81,9 @@ fn imported(arguments: &ImportArguments, cancellation: &Cancellation) -> Result<
     }
     let [links, joints] = [(robot.links.len(), "link"), (robot.joints.len(), "joint")]
         .map(|(count, thing)| counted(count, thing));
+    if arguments.format == AnswerFormat::Json {
+        return Ok(imported.report.to_json());
+    }
     let urdf = shown(&arguments.output.join(&imported.urdf));
     Ok(format!("{urdf}: {links}, {joints}, {}\n", counted(count, "file")))
 }

@@ -218,7 +218,9 @@ fn write_baseline(file: &Path, run: &Run) -> Result<u8, Failure> {
     let shown = shown(file);
     let status = status(&run.report);
     if status == output::USAGE {
-        return Err(format!("{shown}: no robot could be examined, so no baseline is written").into());
+        return Err(
+            format!("{shown}: no robot could be examined, so no baseline is written").into()
+        );
     }
     output::write_file(file, &baseline.to_json())?;
     let findings = counted(baseline.count(), "finding");

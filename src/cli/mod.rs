@@ -27,6 +27,7 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
@@ -120,9 +121,10 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return usage(error, &words),
     };
+    let is_json = is_json(&words);
     let (color, limits) = (arguments.color, arguments.limits);
     let watch = &Watch::new(limits);
-    output::ended(match arguments.command {
+    let done = match arguments.command {
         Command::Generate(arguments) => generate::run(&arguments, watch),
         Command::Combine(arguments) => combine::run(&arguments, watch),
         Command::Import(arguments) => import::run(&arguments, watch),
@@ -153,7 +155,29 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
             clap_complete::generate(shell, &mut Arguments::command(), "urdd", &mut script);
             printed(Ok(String::from_utf8_lossy(&script).into_owned()))
         }
-    })
+    };
+    output::ended(done, is_json)
+}
+
+/// Whether the words ask for JSON: `--format json`.
+fn is_json(words: &[OsString]) -> bool {
+    let words = words.iter().take_while(|word| *word != "--");
+    let words: Vec<&OsString> = words.collect();
+    let is_apart = words.windows(2).any(|two| two[0] == "--format" && two[1] == "json");
+    is_apart || words.iter().any(|word| *word == "--format=json")
+}
+
+/// Options that destroy or replace what is there: no tip names them for a word that is misspelt.
+const DESTRUCTIVE: [&str; 4] = ["--alone", "--drop-edits", "--fix", "--force"];
+
+/// The error without a tip that names what destroys.
+fn without_destructive_tips(mut error: clap::Error) -> clap::Error {
+    if let Some(ContextValue::String(tip)) = error.get(ContextKind::SuggestedArg)
+        && DESTRUCTIVE.contains(&tip.as_str())
+    {
+        error.remove(ContextKind::SuggestedArg);
+    }
+    error
 }
 
 /// Prints the text of a command that only prints.
@@ -167,12 +191,13 @@ fn printed(text: Result<String, Failure>) -> Result<u8, Failure> {
 fn usage(error: clap::Error, words: &[OsString]) -> ExitCode {
     if error.use_stderr() {
         // Parses again with escaped words, so that no word adds a line to the message.
-        let words = words.iter().map(|word| escape::line(&word.to_string_lossy()).into_owned());
-        let error = Arguments::try_parse_from(words).err().unwrap_or(error);
-        let text = error.render().to_string();
+        let safe = words.iter().map(|word| escape::line(&word.to_string_lossy()).into_owned());
+        let error = Arguments::try_parse_from(safe).err().unwrap_or(error);
+        let text = without_destructive_tips(error).render().to_string();
         let text = escape::lines(text.trim_end());
         let _ = writeln!(std::io::stderr().lock(), "{text}");
+        output::print_error_as_json(&text, is_json(words));
         return ExitCode::from(output::USAGE);
     }
-    output::ended(printed(Ok(error.render().to_string())))
+    output::ended(printed(Ok(error.render().to_string())), false)
 }

@@ -20,6 +20,9 @@ pub const USAGE: u8 = 2;
 /// discards everything without an error.
 static CLOSED: AtomicBool = AtomicBool::new(false);
 
+/// Whether something was printed to standard output.
+static PRINTED: AtomicBool = AtomicBool::new(false);
+
 /// Records that standard output was closed when the program started.
 pub fn standard_output_is_closed() {
     CLOSED.store(true, Ordering::Relaxed);
@@ -68,6 +71,7 @@ fn write_bytes(bytes: &[u8]) -> Result<bool, String> {
         return failed("it is closed");
     }
     let mut out = io::stdout().lock();
+    PRINTED.store(true, Ordering::Relaxed);
     let written = out.write_all(bytes).and_then(|()| out.flush());
     match written {
         Ok(()) => Ok(true),
@@ -223,13 +227,24 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// The exit status of a command. Prints its error message.
-pub fn ended(result: Result<u8, Failure>) -> ExitCode {
+/// The exit status of a command. Prints its error message; where JSON was asked for and nothing is printed, also as JSON.
+pub fn ended(result: Result<u8, Failure>, is_json: bool) -> ExitCode {
     let status = result.unwrap_or_else(|message| {
-        error(&message.to_string());
+        let message = message.to_string();
+        error(&message);
+        print_error_as_json(&message, is_json);
         USAGE
     });
     ExitCode::from(status)
+}
+
+/// Prints why nothing was done as JSON, if that was asked for and nothing is printed.
+pub fn print_error_as_json(message: &str, is_json: bool) {
+    if is_json && !PRINTED.load(Ordering::Relaxed) {
+        let error = serde_json::json!({"status": USAGE, "error": {"message": message}});
+        // Standard error has the message too.
+        let _ = print(&format!("{error}\n"));
+    }
 }
 
 /// Does work whose panics are caught and reported: the default hook would print them as well.

@@ -92,7 +92,7 @@ pub(super) struct ReportArguments {
 
     /// Also writes the report to a file, in the format of the file's extension: .sarif, .xml (JUnit), .md (a summary),
     /// otherwise JSON. May be repeated.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, visible_alias = "report", value_name = "FILE")]
     output: Vec<PathBuf>,
 
     /// Lowest severity of findings that fails the run; default: `error`.
@@ -134,7 +134,7 @@ pub(super) struct ReportArguments {
 enum ReportFormat {
     /// Text for people.
     Human,
-    /// JSON; its schema is `urdd schema show report@1.1.0`.
+    /// JSON; its schema is `urdd schema show report@1.2.0`.
     Json,
     /// SARIF 2.1.0, for GitHub code scanning and editors. Run at the root of the repository.
     Sarif,

@@ -26,6 +26,7 @@ mod loops;
 mod loops_found;
 mod lsp;
 mod new_extension;
+mod not_examined;
 mod outputs;
 mod parsers;
 mod picture;

@@ -48,19 +48,30 @@ fn run(root: &Path, words: &[&str]) -> (Option<i32>, String) {
 fn a_robot_that_needs_arguments_is_an_information_and_its_lines_are_written() {
     let folder = package();
     let root = folder.path();
+    // Nothing was examined.
     let (status, said) = run(root, &["lint", "arms", "--xacro"]);
-    assert_eq!(status, Some(0), "{said}");
+    assert_eq!(status, Some(2), "{said}");
     for words in [
         "info LNT065 needs-arguments",
         "arm.urdf.xacro:2:1 (argument `type`)",
         "`type` (broken, long, short)",
         "[[robot]] path = \"arms/urdf/arm.urdf.xacro\" args = { type = [\"broken\", \"long\", \"short\"] }",
         "xacro says: error: no file",
-        "1 URDF: 1 not checked.",
+        "1 URDF: 1 not examined.",
     ] {
         assert!(said.contains(words), "{words}: {said}");
     }
-    assert_eq!(run(root, &["lint", "arms", "--xacro", "--fail-on", "info"]).0, Some(1));
+    // Nobody asked for it: what was examined beside it decides.
+    fs::write(root.join("arms/urdf/other.urdf"), testkit::robots::BARS).unwrap();
+    let (status, said) = run(root, &["lint", "arms", "--xacro"]);
+    assert_eq!(status, Some(0), "{said}");
+    assert!(said.contains("2 URDFs: 1 passed, 1 not examined."), "{said}");
+    // A person who names it did.
+    let named = ["lint", "arms/urdf/arm.urdf.xacro", "arms/urdf/other.urdf"];
+    let (status, said) = run(root, &named);
+    assert_eq!(status, Some(1), "{said}");
+    assert!(said.contains("error LNT065 needs-arguments"), "{said}");
+    fs::remove_file(root.join("arms/urdf/other.urdf")).unwrap();
     let own = "# ours\n[severity]\nLNT001 = \"info\"\n";
     fs::write(root.join("urdd.toml"), own).unwrap();
     let (status, said) = run(root, &["lint", "arms", "--xacro", "--write-robots"]);
@@ -71,6 +82,27 @@ fn a_robot_that_needs_arguments_is_an_information_and_its_lines_are_written() {
     let (status, said) = run(root, &["lint", "arms", "--xacro", "--write-robots"]);
     assert_eq!((status, said.trim()), (Some(0), "urdd.toml: nothing to add"));
     assert_eq!(fs::read_to_string(root.join("urdd.toml")).unwrap(), format!("{own}{lines}"));
+}
+
+/// An argument was renamed: its old name is still in urdd.toml.
+#[test]
+fn a_declared_robot_that_can_no_longer_be_made_fails_and_is_in_no_baseline() {
+    let folder = package();
+    let root = folder.path();
+    let declared =
+        "[[robot]]\npath = \"arms/urdf/arm.urdf.xacro\"\nargs = { kind = [\"long\", \"short\"] }\n";
+    fs::write(root.join("urdd.toml"), declared).unwrap();
+    fs::write(root.join("arms/urdf/other.urdf"), testkit::robots::BARS).unwrap();
+    let words = ["lint", "arms", "--xacro"];
+    // xacro cannot make it.
+    let (status, said) = run(root, &words);
+    assert_eq!(status, Some(1), "{said}");
+    assert!(said.contains("3 URDFs: 1 passed, 2 not examined."), "{said}");
+    let (status, said) = run(root, &["lint", "arms", "--xacro", "--write-baseline", "base.json"]);
+    assert_eq!(status, Some(1), "{said}");
+    assert!(said.contains("arm.urdf.xacro kind:=long: not examined: "), "{said}");
+    let (status, said) = run(root, &["lint", "arms", "--xacro", "--baseline", "base.json"]);
+    assert_eq!(status, Some(1), "{said}");
 }
 
 #[test]
@@ -90,13 +122,15 @@ fn where_a_package_is_missing_it_is_said_and_no_argument() {
     assert!(!said.contains("LNT065"), "{said}");
     // Another value of the argument would name another package.
     let (status, said) = said_of("other_description");
-    assert_eq!(status, Some(0), "{said}");
+    assert_eq!(status, Some(2), "{said}");
     assert!(said.contains("LNT065"), "{said}");
     // That of an argument without default could, unless the file names the package.
     let main = MAIN.replace(" default=\"other\"", "");
     let file = root.join("arms/urdf/arm.urdf.xacro");
     fs::write(&file, &main).unwrap();
-    assert_eq!(said_of("hands").0, Some(0));
+    let (status, said) = said_of("hands");
+    assert_eq!(status, Some(2), "{said}");
+    assert!(said.contains("LNT065"), "{said}");
     let include = "<xacro:include filename=\"$(find hands)/hand.xacro\"/><link";
     fs::write(&file, main.replace("<link", include)).unwrap();
     let (status, said) = said_of("hands");

@@ -50,6 +50,24 @@ fn spheres_go_from_a_urdf_to_a_planner_and_back() {
     fs::write(folder.join("large.yml"), large).expect("written");
     let told = run(folder, &["spheres", "import", "large.yml", "bars"]);
     assert!(told.contains("these links touch") && told.contains(": `a` with `c`\n"), "{told}");
+    // A list of one link empties no other: a check by spheres would call free what touches them.
+    run(folder, &["spheres", "import", "s.yml", "bars"]);
+    let count = |link: usize| {
+        let text = fs::read_to_string(folder.join("bars/link_shapes_spheres_module/module.json"));
+        let module: Value = serde_json::from_str(&text.expect("read")).expect("JSON");
+        module["levels"][3]["spheres"][link].as_array().expect("a list").len()
+    };
+    let before = [count(1), count(2)];
+    assert!(before.iter().all(|count| *count > 1), "{before:?}");
+    let one = "collision_spheres: {a: [{center: [0, 0, 0], radius: 0.05}]}";
+    fs::write(folder.join("one.yml"), one).expect("written");
+    let told = run(folder, &["spheres", "import", "one.yml", "bars"]);
+    assert!(told.contains("keep their spheres (--alone removes them): `b`, `c`\n"), "{told}");
+    assert_eq!(([count(1), count(2)], count(0)), (before, 1));
+    let told = run(folder, &["spheres", "import", "one.yml", "bars", "--alone"]);
+    assert!(told.contains("touches them free: `b`, `c`\n"), "{told}");
+    assert_eq!([count(0), count(1), count(2)], [1, 0, 0]);
+    run(folder, &["spheres", "import", "large.yml", "bars", "--alone"]);
     // What rests on skips follows them when the URDD is made again.
     let srdf =
         "<robot name=\"bars\"><disable_collisions link1=\"a\" link2=\"c\" reason=\"x\"/></robot>";

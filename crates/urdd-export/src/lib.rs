@@ -107,7 +107,7 @@ pub use simplify::Detail;
 pub use source_shapes::{Fit, NoFit};
 pub use spheres::SphereRates;
 pub use spheres::import::{
-    ImportedSpheres, ListError, SphereFault, SpheresError, import_spheres, read_spheres,
+    ImportedSpheres, ListError, SphereFault, SpheresError, Unnamed, import_spheres, read_spheres,
 };
 pub use srdf::{ImportedSkips, ImportedStates, SrdfError, import_srdf, import_states};
 pub use stand::base_pose;

@@ -56,9 +56,10 @@ impl Answer {
 
 /// No rule was asked about it, or each needs something that is not there.
 pub(crate) fn no_rule_looked(urdd: &Urdd) -> NotExamined {
-    let why = urdd.not_checked.first().map_or("no rule that was selected is about it; correct --select, --ignore or the settings", |open| {
-        &open.reason
-    });
+    let why = urdd.not_checked.first().map_or(
+        "no rule that was selected is about it; correct --select, --ignore or the settings",
+        |open| &open.reason,
+    );
     not_examined(Cause::NoRule, why.to_owned())
 }
 
@@ -88,8 +89,6 @@ pub fn placed(mut why: NotExamined, at: Option<(String, u32, u32)>) -> NotExamin
 pub(crate) fn verdict(why: &NotExamined) -> Verdict {
     match why.cause {
         Cause::Crash => Verdict::Incomplete,
-        Cause::Unreadable | Cause::Arguments | Cause::Limit | Cause::NoRule => {
-            Verdict::Unreadable
-        }
+        Cause::Unreadable | Cause::Arguments | Cause::Limit | Cause::NoRule => Verdict::Unreadable,
     }
 }

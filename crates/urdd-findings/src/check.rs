@@ -13,7 +13,8 @@ use urdd_directory::position::Position;
 use urdd_format::index::Count;
 use urdd_format::registry::ModuleKind;
 use urdd_format::report::{
-    Cause, Kind, LinkNotVerified, ModelNotVerified, NotExamined, Place, Severity, Size, Urdd, Verdict,
+    Cause, Kind, LinkNotVerified, ModelNotVerified, NotExamined, Place, Severity, Size, Urdd,
+    Verdict,
 };
 
 /// The outcome of a rule.

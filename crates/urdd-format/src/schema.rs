@@ -19,7 +19,8 @@ use super::report::{REPORT_VERSION, Report};
 use super::root_metadata::RootMetadata;
 
 /// Each with the keys and types that the one after it has more.
-type EarlierVersions<const N: usize> = [(&'static str, &'static [&'static str], &'static [&'static str]); N];
+type EarlierVersions<const N: usize> =
+    [(&'static str, &'static [&'static str], &'static [&'static str]); N];
 
 /// The earlier versions of the report.
 const EARLIER_REPORTS: EarlierVersions<2> = [

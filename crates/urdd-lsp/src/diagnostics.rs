@@ -202,7 +202,8 @@ pub fn marked(snapshot: &Snapshot, offset: usize) -> Range<usize> {
 /// What kept rules from running to their end.
 pub fn failures(snapshot: &Snapshot, examined: &Examined) -> Vec<Found> {
     let mut failures = Vec::new();
-    let is_said = |examined: &Examined| examined.checks.iter().any(|check| !check.findings.is_empty());
+    let is_said =
+        |examined: &Examined| examined.checks.iter().any(|check| !check.findings.is_empty());
     if let Some(why) = examined.report.not_examined.as_ref().filter(|_| !is_said(examined)) {
         failures.push(at_the_top(snapshot, DiagnosticSeverity::ERROR, &why.reason));
     }

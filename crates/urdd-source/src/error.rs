@@ -130,7 +130,7 @@ fn untaken_words(untaken: &[Untaken]) -> String {
     let one = |one: &Untaken| {
         let tip = match &one.nearest {
             Some((like, file, at)) => {
-                format!("`{like}` ({file}:{at}) is like it: correct one of the two names")
+                format!("`{like}` ({file}:{at}) has no value and may be meant: correct one of the two names")
             }
             None => "correct its name there, or remove it".to_owned(),
         };

@@ -18,9 +18,9 @@ use crate::loops::{self, CostlyElement, Said};
 use crate::note::{Note, Remark, SourcePlace};
 use crate::settings::Settings;
 use crate::suggested::deciding;
+use crate::untaken::untaken;
 use crate::urdf::{self, Reading};
 use crate::written::Origin;
-use crate::untaken::untaken;
 use crate::xacro::{self, Trail};
 
 /// Maximum number of repair rounds; one is enough unless this program has a bug.

@@ -17,7 +17,7 @@ use crate::xacro::Trail;
 pub struct Untaken {
     /// Its name.
     pub name: String,
-    /// The declared argument whose name is like it, and that has no value; its file, as seen from the folder of the one that
+    /// The declared argument that may be meant, and that has no value: the one of the nearest name, or the only one; its file, as seen from the folder of the one that
     /// was expanded, and its place.
     pub nearest: Option<(String, String, Position)>,
 }
@@ -54,6 +54,8 @@ pub(crate) fn untaken<'a>(
     let untaken = open.into_iter().map(|name| {
         let like = nearest(free.iter().map(|(known, ..)| known.as_str()), name);
         let nearest = like.and_then(|like| free.iter().find(|(known, ..)| *known == like));
+        // The only one without a value is most likely the same, however it is called now.
+        let nearest = nearest.or(free.first().filter(|_| free.len() == 1));
         Untaken { name: name.to_owned(), nearest: nearest.map(|known| (*known).clone()) }
     });
     untaken.collect()
@@ -77,7 +79,9 @@ mod tests {
 
     #[test]
     fn an_argument_is_used_in_substitutions_and_in_python_alone() {
-        for text in ["<a b='$(arg side)'/>", "<a b='$(eval arg(\"side\") + 1)'/>", "${xacro.arg('side')}"] {
+        for text in
+            ["<a b='$(arg side)'/>", "<a b='$(eval arg(\"side\") + 1)'/>", "${xacro.arg('side')}"]
+        {
             assert!(uses(text, "side"), "{text}");
             assert!(!uses(text, "sid"), "{text}");
         }

@@ -1,7 +1,7 @@
 //! Imports a list of spheres that people have, cuRobo's YAML or Foam's JSON: `link_shapes_spheres_module` with a person's
 //! spheres in place of fitted ones.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use serde_json::{Map, Value};
 use thiserror::Error;
@@ -31,6 +31,20 @@ pub struct ImportedSpheres {
     pub taken: usize,
     /// What of the list was left out, each with the reason.
     pub left_out: Vec<String>,
+    /// The links that the list does not name, and that have the spheres of the level before.
+    pub kept: Vec<usize>,
+    /// The links with shapes that have no sphere: a check by this level does not see them.
+    pub bare: Vec<usize>,
+}
+
+/// What becomes of links with shapes that a list does not name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Unnamed {
+    /// They keep the spheres that they have in the URDD's last level.
+    #[default]
+    Keep,
+    /// They have no spheres.
+    Clear,
 }
 
 /// Why spheres are not imported.
@@ -65,7 +79,7 @@ impl From<RobotError> for SpheresError {
 }
 
 /// Makes `link_shapes_spheres_module` of a list, in place of the spheres that the URDD has: the list is the last level, its
-/// origin `Given`. Spheres of links that the robot does not have, or that have no shape, are left out.
+/// origin `Given`. `unnamed` says what becomes of links that it does not name. Spheres of links that the robot does not have, or that have no shape, are left out.
 ///
 /// # Errors
 /// If a sphere is out of range, or no link of the list has a shape; if the account does not have what the list takes; if
@@ -73,6 +87,7 @@ impl From<RobotError> for SpheresError {
 pub fn import_spheres(
     robot: &Robot,
     list: &SphereList,
+    unnamed: Unnamed,
     account: &Account,
 ) -> Result<ImportedSpheres, SpheresError> {
     let names = robot.link_names()?;
@@ -100,7 +115,26 @@ pub fn import_spheres(
     if taken == 0 {
         return Err(SpheresError::OtherRobot(left_out.join("; ")));
     }
-    let given = [list.by_link(names)];
+    let mut spheres = list.by_link(names);
+    let named: HashSet<&str> = list.links.iter().map(|(name, _)| name.as_str()).collect();
+    let before = match unnamed {
+        Unnamed::Keep => robot.spheres_module()?.and_then(|mut module| module.levels.pop()),
+        Unnamed::Clear => None,
+    };
+    let open = pairs.links.iter().copied().filter(|link| !named.contains(names[*link].as_str()));
+    let mut kept = Vec::new();
+    if let Some(level) = before {
+        for link in open {
+            let of = level.spheres[link].iter();
+            spheres[link] =
+                of.map(|one| Sphere { centre: one.offset_xyz, radius: one.radius }).collect();
+            if !spheres[link].is_empty() {
+                kept.push(link);
+            }
+        }
+    }
+    let bare = pairs.links.iter().copied().filter(|link| spheres[*link].is_empty()).collect();
+    let given = [spheres];
     let subject =
         Subject { robot: &Moving(robot), pairs: &pairs, num_links: names.len(), given: &given };
     let made = module(&subject, account, &|_, _| ()).map_err(|error| match error {
@@ -117,7 +151,7 @@ pub fn import_spheres(
         }
     })?;
     let files = robot.with_spheres(&made)?;
-    Ok(ImportedSpheres { module: made, files, taken, left_out })
+    Ok(ImportedSpheres { module: made, files, taken, left_out, kept, bare })
 }
 
 /// What was left out. Of very many things, the first are named and the others counted.

@@ -8,7 +8,8 @@ use testkit::robots::made_bars;
 use testkit::temporary;
 use urdd_directory::account::Account;
 use urdd_export::{
-    Choices, Format, ListError, SphereFault, SphereList, SpheresError, import_spheres, read_spheres,
+    Choices, Format, ListError, SphereFault, SphereList, SpheresError, Unnamed, import_spheres,
+    read_spheres,
 };
 use urdd_format::link_shapes_spheres::SphereOrigin;
 use urdd_robot::Robot;
@@ -76,7 +77,8 @@ fn a_list_becomes_the_last_level_in_each_form() {
     ] } } });
     for (text, left_out) in [(curobo.to_owned(), 3), (foam.to_string(), 0)] {
         let list = read(&text).expect("a list");
-        let imported = import_spheres(&robot, &list, &Account::default()).expect("spheres");
+        let imported =
+            import_spheres(&robot, &list, Unnamed::Clear, &Account::default()).expect("spheres");
         assert_eq!(
             (imported.taken, imported.left_out.len()),
             (2, left_out),
@@ -112,7 +114,8 @@ fn a_urdd_without_the_module_gets_it_and_its_version() {
         )],
         left_out: Vec::new(),
     };
-    let imported = import_spheres(&robot, &list, &Account::default()).expect("spheres");
+    let imported =
+        import_spheres(&robot, &list, Unnamed::Clear, &Account::default()).expect("spheres");
     let metadata: Value = serde_json::from_slice(&imported.files["urdd.json"]).expect("JSON");
     assert_eq!(metadata["urdd_version"], "1.1.0");
     let names = metadata["modules"].as_array().expect("modules").iter();
@@ -171,14 +174,15 @@ fn what_is_no_list_of_this_robot_is_refused() {
     let other = read(
         "collision_spheres: {hand: [{center: [0, 0, 0], radius: 1}], frame: [{center: [0, 0, 0], radius: 1}]}",
     );
-    let refused = import_spheres(&robot, &other.expect("a list"), &Account::default());
+    let refused =
+        import_spheres(&robot, &other.expect("a list"), Unnamed::Clear, &Account::default());
     let Err(SpheresError::OtherRobot(said)) = refused else { panic!("{refused:?}") };
     assert!(said.contains("`hand`") && said.contains("`frame` has no shape"), "{said}");
     // Of very many, few are named.
     let one = vec![urdd_export::Sphere { centre: [0.0; 3], radius: 0.1 }];
     let links = (0..30_000).map(|k| (format!("link_{k}"), one.clone())).collect();
     let many = SphereList { links, left_out: Vec::new() };
-    let refused = import_spheres(&robot, &many, &Account::default());
+    let refused = import_spheres(&robot, &many, Unnamed::Clear, &Account::default());
     let Err(SpheresError::OtherRobot(said)) = refused else { panic!("{refused:?}") };
     assert!(said.ends_with("; 29980 more of the list") && said.len() < 2000, "{said}");
 }
@@ -221,9 +225,9 @@ fn lists_that_multiply_are_refused_before_they_do() {
             left_out: Vec::new(),
         }
     };
-    let taken = import_spheres(&robot, &spheres(0.0), &Account::default());
+    let taken = import_spheres(&robot, &spheres(0.0), Unnamed::Clear, &Account::default());
     assert_eq!(taken.expect("equal ones are looked at once").taken, 5000);
-    let refused = import_spheres(&robot, &spheres(1e-12), &Account::default());
+    let refused = import_spheres(&robot, &spheres(1e-12), Unnamed::Clear, &Account::default());
     let said = refused.map(|found| found.taken).expect_err("64 times 25 million").to_string();
     assert!(said.starts_with("the spheres of `b`: ") && said.contains("memory or work"), "{said}");
 }

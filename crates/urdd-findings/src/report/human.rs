@@ -13,7 +13,8 @@ use urdd_format::readable::{counted, number};
 use urdd_format::registry::ModuleKind;
 
 use super::style::{
-    BOLD, DIM, GREEN, RED, Style, YELLOW, is_a_finding, is_in_part, list, severity, unit, unverified,
+    BOLD, DIM, GREEN, RED, Style, YELLOW, is_a_finding, is_in_part, list, severity, unit,
+    unverified,
 };
 use super::{programs, summary};
 use crate::part::SkipReason;
@@ -320,7 +321,8 @@ fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Res
     let totals = &report.totals;
     let not_examined = report.urdds.iter().filter(|urdd| urdd.not_examined.is_some()).count();
     let crashed = report.urdds.iter().filter(|urdd| urdd.verdict == Verdict::Incomplete);
-    let parts = report.urdds.iter().filter(|urdd| urdd.verdict == Verdict::Pass && is_in_part(urdd));
+    let parts =
+        report.urdds.iter().filter(|urdd| urdd.verdict == Verdict::Pass && is_in_part(urdd));
     let parts = match parts.count() {
         0 => String::new(),
         count => format!(" ({count} in part)"),

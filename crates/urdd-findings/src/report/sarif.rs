@@ -191,7 +191,12 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
     };
     let mut results: Vec<Value> = urdd.findings.iter().map(result).collect();
     results.extend(unexamined(urdd).map(|why| {
-        let at = Place { file: why.file.clone(), line: why.line, column: why.column, ..Place::default() };
+        let at = Place {
+            file: why.file.clone(),
+            line: why.line,
+            column: why.column,
+            ..Place::default()
+        };
         let at = if is_inside(place, at.file.as_deref()) { at } else { Place::default() };
         let name = urdd.path.rsplit('/').next().filter(|_| urdd.kind == Kind::Urdf);
         let at = Place { file: at.file.or_else(|| name.map(str::to_owned)), ..at };
