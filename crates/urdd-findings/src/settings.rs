@@ -38,6 +38,8 @@ pub const NAMES: &[&str] = &[
     "isaac",
     "newton",
     "three",
+    "ros2_control",
+    "gz_ros2_control",
 ];
 
 /// Settings of a run.

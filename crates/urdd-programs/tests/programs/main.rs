@@ -1,6 +1,7 @@
 //! Readers held to the table of what programs did.
 #![allow(clippy::restriction, clippy::disallowed_methods)]
 
+mod control;
 mod gazebo;
 mod meshes;
 mod parts;
