@@ -41,15 +41,19 @@ pub fn load(file: &File<'_>, all: &[Hardware<'_>], effects: &mut Effects) -> Rea
     start(file, all, effects)?;
     let lost = lost_joints(file);
     for hardware in all {
-        let (node, plugin) = hardware.plugin.unwrap_or((hardware.node, ""));
-        if plugin.is_empty() || OTHERS.contains(&plugin) {
-            let fault = Fault::Control(
-                "the plugin is none of Gazebo",
-                "write `gz_ros2_control/GazeboSimSystem` for Gazebo",
-            );
-            effects.drop(node, Part::of("hardware", hardware.name), fault);
-        } else if HARDWARE.contains(&plugin) {
-            initialize(hardware, &lost, effects)?;
+        let part = Part::of("hardware", hardware.name);
+        match hardware.plugin {
+            None => effects.drop(hardware.node, part, Fault::MissingElement("hardware")),
+            Some((node, "")) => effects.drop(node, part, Fault::Empty("plugin")),
+            // A robot that is a mock here, or real, often has the plugin of Gazebo too.
+            Some((node, plugin)) if OTHERS.contains(&plugin) => {
+                effects.drop(node, part, Fault::Way("the plugin is not one of Gazebo"));
+            }
+            Some((_, plugin)) if HARDWARE.contains(&plugin) => {
+                initialize(hardware, &lost, effects)?;
+            }
+            // Others may have made their own.
+            Some(_) => {}
         }
     }
     Ok(())

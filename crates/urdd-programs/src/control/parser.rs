@@ -62,9 +62,8 @@ impl<'t> Interface<'t> {
         self.node.name() == COMMAND
     }
 
-    /// The name that controllers have for it, as a part.
     pub fn part(&self, component: &Component<'_>) -> Part {
-        Part::of(self.node.name(), &format!("{}/{}", component.name, self.name))
+        Part::of(self.node.name(), component.name)
     }
 
     /// The `<param>` of a name, the last if there are several, and its text.
