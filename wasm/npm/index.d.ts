@@ -34,7 +34,10 @@ export function load(
   makerBytes?: BufferSource | Promise<BufferSource>,
 ): Promise<Urdd>;
 
-/** A program that a URDF is for; a distribution of ROS stands for its urdfdom, `gazebo` for each of its versions. */
+/**
+ * A program that a URDF is for; a distribution of ROS stands for its urdfdom and its ros2_control, `gazebo` and
+ * `ros2_control` for each of their versions.
+ */
 export type Program =
   | "ros"
   | "lyrical"
@@ -55,7 +58,9 @@ export type Program =
   | "pybullet"
   | "isaac"
   | "newton"
-  | "three";
+  | "three"
+  | "ros2_control"
+  | "gz_ros2_control";
 
 /** The files of a folder on disk, for Node. */
 export function folder(path: string): Promise<Source>;

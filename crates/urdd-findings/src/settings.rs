@@ -15,8 +15,8 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_format::report::{Kind, Severity, StaleIgnore};
 use urdd_format::root_metadata::ConformanceClass;
 
-/// The names that settings have for programs that read URDFs. A distribution of ROS stands for its urdfdom, `gazebo` for
-/// each of its versions.
+/// The names that settings have for programs that read URDFs. A distribution of ROS stands for its urdfdom and its
+/// ros2_control, `gazebo` and `ros2_control` for each of their versions.
 pub const NAMES: &[&str] = &[
     "ros",
     "lyrical",
@@ -38,6 +38,8 @@ pub const NAMES: &[&str] = &[
     "isaac",
     "newton",
     "three",
+    "ros2_control",
+    "gz_ros2_control",
 ];
 
 /// Settings of a run.

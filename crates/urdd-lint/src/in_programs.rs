@@ -67,6 +67,8 @@ pub const fn in_programs(code: Code) -> &'static str {
             `white`.",
         Code::LNT042 => "\
             In an example, no joint is called `trun`, but there is `turn`: Drake refuses the robot.",
+        Code::LNT043 => "\
+            In an example, no joint is called `trun`, but there is `turn`: ros2_control jazzy refuses the robot.",
         Code::LNT048 => "\
             In an example, the colour is not red, green, blue and opacity from 0 to 1: Drake refuses the robot; ROS, Gazebo and \
             Pinocchio leave out the material.",

@@ -63,6 +63,10 @@ pub enum Fault {
     Version(Short),
     /// A name that the program cannot have.
     Name { kind: &'static str, name: Short, rule: &'static str },
+    /// What ros2_control does not take, and what to do.
+    Control(&'static str, &'static str),
+    /// A value that ros2_control does not take, and what it takes.
+    ControlValue { attribute: &'static str, text: Short, expected: &'static str },
     /// Anything else, as a sentence without its end.
     Other(&'static str),
 }
@@ -136,6 +140,10 @@ impl Fault {
         }
     }
 
+    pub(crate) fn value_but(attribute: &'static str, text: &str, expected: &'static str) -> Fault {
+        Fault::ControlValue { attribute, text: text.into(), expected }
+    }
+
     pub(crate) fn not_unique(kind: &'static str, name: &str) -> Fault {
         Fault::NotUnique { kind, name: name.into() }
     }
@@ -172,10 +180,11 @@ impl Fault {
                 }
                 Fault::Repeated(name) | Fault::Shape(name) => Some(name),
                 Fault::NotUnique { kind, .. } | Fault::Unknown { kind, .. } => Some(kind),
+                Fault::ControlValue { attribute, .. } => Some(attribute),
                 _ => None,
             }
         }
-        let is_plain = !matches!(self, Fault::Other(_));
+        let is_plain = !matches!(self, Fault::Other(_) | Fault::Control(..));
         std::mem::discriminant(self) == std::mem::discriminant(other)
             && name(self) == name(other)
             && (is_plain || self == other)
@@ -225,6 +234,8 @@ impl Fault {
             fault if *fault == FOLLOWS_NONE => {
                 "let it follow a joint that moves, with a mass in the link below"
             }
+            Fault::Control(_, advice) => advice,
+            Fault::ControlValue { .. } => "write such a value",
             Fault::Other(_) => "mend it",
         }
     }
@@ -240,6 +251,7 @@ impl fmt::Display for Fault {
             | Fault::Mesh(what)
             | Fault::ForOthers(what)
             | Fault::Way(what)
+            | Fault::Control(what, _)
             | Fault::Other(what) => f.write_str(what),
             Fault::NotFound(kind) => write!(f, "the file of the {kind} was not found"),
             Fault::NotRobot => f.write_str("the root is not `<robot>`"),
@@ -280,6 +292,9 @@ impl fmt::Display for Fault {
             }
             Fault::UnknownAttribute { name, like } => {
                 write!(f, "`{name}` is not an attribute of URDF here (`{like}` is)")
+            }
+            Fault::ControlValue { attribute, text, expected } => {
+                write!(f, "`{attribute}` is `{text}`, where it has to be {expected}")
             }
             Fault::Version(version) => write!(f, "URDF has no version `{version}`"),
             Fault::Name { kind, name, rule } => {

@@ -27,6 +27,8 @@ pub struct About {
     pub settings: &'static [&'static str],
     /// Whether it is asked if nobody says which programs matter.
     pub is_asked: bool,
+    /// Which files it reads, if not every URDF. What such a program ignores of a URDF is no loss.
+    pub is_for: Option<fn(&File) -> bool>,
     /// Which names it takes for those of elements.
     pub names: Names,
     /// Elements and attributes that it never reads, in words with spaces between them: nothing is lost with them.

@@ -4,6 +4,7 @@
 //! A *reader* is a model of one program's way to read, one file a program, and is held to that program by
 //! `tests/figures/programs`. A reader takes any bytes.
 
+mod control;
 mod drake;
 mod effect;
 mod fault;

@@ -12,6 +12,7 @@ pub const ABOUT: About = About {
     version: "4.1.0",
     settings: &[],
     is_asked: true,
+    is_for: None,
     names: Names::Exact,
     never: &["mimic safety_controller calibration", FURTHER],
     read,

@@ -2,7 +2,7 @@
 
 use crate::effect::{Deed, Effects};
 use crate::file::{About, File};
-use crate::{drake, mujoco, pinocchio, pybullet, sdformat, three, urdfdom, usd};
+use crate::{control, drake, mujoco, pinocchio, pybullet, sdformat, three, urdfdom, usd};
 
 /// Lists the programs in the order in which they are reported, each with what its reader says of it.
 macro_rules! programs {
@@ -15,7 +15,7 @@ macro_rules! programs {
 
         impl Program {
             /// All, in the order in which they are reported.
-            pub const ALL: [Program; 13] = [$(Program::$name),+];
+            pub const ALL: [Program; 16] = [$(Program::$name),+];
 
             const fn about(self) -> &'static About {
                 match self {
@@ -53,6 +53,12 @@ programs! {
     Isaac: usd::ABOUT,
     /// urdf-loader of three.js.
     Three: three::ABOUT,
+    /// ros2_control of ROS jazzy and later.
+    Control4: control::FOUR,
+    /// ros2_control of ROS humble.
+    Control2: control::TWO,
+    /// gz_ros2_control.
+    GazeboControl: control::GAZEBO,
 }
 
 impl Program {
@@ -73,6 +79,11 @@ impl Program {
     /// Whether it is asked if nobody says which programs matter.
     pub fn is_asked(self) -> bool {
         self.about().is_asked
+    }
+
+    /// Whether it has anything to do with a file: ros2_control with a `<ros2_control>`.
+    pub fn is_for(self, file: &File) -> bool {
+        self.about().is_for.is_none_or(|is_for| is_for(file))
     }
 
     /// As reports and the table name it.
@@ -100,7 +111,7 @@ impl Program {
         let mut effects = Effects::default();
         // What a reader refuses is among the effects.
         let _ = (self.about().read)(file, &mut effects);
-        if effects.loads() {
+        if effects.loads() && self.about().is_for.is_none() {
             let (ignored, cut) = file.unknown(self.about().names);
             ignored.iter().for_each(|found| found.add(self.about().never, &mut effects));
             effects.count(*cut, Deed::Drops);

@@ -58,6 +58,12 @@ impl<'t> Tree<'t> {
     pub fn tops(&'t self) -> impl Iterator<Item = Node<'t>> {
         self.tops.iter().map(move |&index| Node { tree: self, index })
     }
+
+    /// All elements of a name, wherever they are, in order.
+    pub fn named(&'t self, name: &str) -> impl Iterator<Item = Node<'t>> {
+        let named = self.elements.iter().enumerate().filter(move |(_, one)| one.name == name);
+        named.map(|(index, _)| Node { tree: self, index })
+    }
 }
 
 impl<'t> Node<'t> {

@@ -17,6 +17,7 @@ pub const SIX: About = About {
     version: "6.0.0",
     settings: &["ros", "lyrical", "rolling"],
     is_asked: true,
+    is_for: None,
     names: Names::Exact,
     never: &[],
     read: |file, effects| model(parse(file, effects)?, Release::Six, effects).map(|_| ()),

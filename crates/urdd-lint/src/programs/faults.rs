@@ -256,6 +256,8 @@ fn seeing(fault: &Fault) -> &'static [Seeing] {
             &[(Part, &[URD009, URD010]), (Beside, &[LNT008, URD011, URD012, LNT046])]
         }
         Fault::NeverRead(_) | Fault::Way(_) | Fault::ForOthers(_) => &[],
+        // What rules say of joints and links is about the robot's own.
+        Fault::Control(..) | Fault::ControlValue { .. } => &[],
     }
 }
 

@@ -53,7 +53,9 @@ impl Asked {
                 chosen.push(program);
             }
         }
+        chosen.retain(|program| program.is_for(&file));
         let others = Program::ALL.into_iter().filter(|one| one.is_asked() && !chosen.contains(one));
+        let others = others.filter(|one| one.is_for(&file));
         let (mut results, mut said, mut refusing) = (Vec::new(), Vec::new(), Vec::new());
         for program in chosen.iter().copied().chain(others) {
             if settings.source.cancellation.is_cancelled() {

@@ -25,7 +25,8 @@ declare_lint! {
 
     /// A `<ros2_control>` names a joint that the robot does not have.
     ///
-    /// `ros2_control_node` ends with `Joint 'X' not found in URDF`, and gz_ros2_control crashed.
+    /// From Jazzy on, the controller manager says `Joint 'X' not found in URDF`, and no controller starts. That of Humble
+    /// gives the joint to controllers, and nobody knows where it is.
     ///
     /// Write the name of a joint, or remove this one.
     LNT043 "ros2-control-unknown-joint", Error, WrongMotion, since "1.1.0" => ros2_control_unknown_joint;

@@ -8,7 +8,8 @@ declare_lint! {
     /// For each program there is a reader, a model of how that program reads a URDF, which is held to the program on
     /// thousands of changed files (`docs/lint.md` has the versions). The finding names the programs that have no robot
     /// because of this fault, and what the others do with it. Where another rule finds the same fault, that rule's
-    /// finding names the programs instead.
+    /// finding names the programs instead. ros2_control refuses a robot if none of its controllers can start; the robot
+    /// itself may load everywhere.
     ///
     /// It is an error if ROS refuses the robot, or two of the other programs do; else a warning. Where `--for` or
     /// `for` in `urdd.toml` names programs, it is an error if one of these refuses the robot, and an information if only

@@ -8,6 +8,7 @@ mod baseline;
 mod cases;
 mod closed_chain;
 mod consequences;
+mod control;
 mod encodings;
 mod fix;
 mod hull;

@@ -139,7 +139,7 @@ fn a_mass_that_is_next_to_nothing_is_one_finding() {
 
 #[test]
 fn a_robot_without_links_is_one_finding() {
-    let control = "<ros2_control name=\"c\" type=\"system\"><joint name=\"j\"/></ros2_control>";
+    let control = "<ros2_control name=\"c\" type=\"system\"><hardware><plugin>a/B</plugin></hardware><joint name=\"j\"/></ros2_control>";
     for inside in ["", control] {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("a.urdf");

@@ -13,6 +13,7 @@ pub const ABOUT: About = About {
     version: "1.51.1",
     settings: &[],
     is_asked: true,
+    is_for: None,
     names: Names::Exact,
     never: &["safety_controller calibration version quat_xyzw", FURTHER],
     read,

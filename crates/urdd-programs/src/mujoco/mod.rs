@@ -17,6 +17,7 @@ pub const FOUR: About = About {
     version: "4.0.0",
     settings: &[],
     is_asked: true,
+    is_for: None,
     names: Names::Exact,
     never: &[NEVER_READ, FURTHER],
     read: |file, effects| read(file, effects, Release::Four),

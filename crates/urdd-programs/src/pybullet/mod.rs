@@ -25,6 +25,7 @@ pub const ABOUT: About = About {
     version: "3.2.7",
     settings: &[],
     is_asked: true,
+    is_for: None,
     names: Names::Exact,
     never: &[
         "mimic safety_controller calibration version quat_xyzw texture",

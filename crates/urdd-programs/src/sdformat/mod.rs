@@ -18,6 +18,7 @@ pub const FORTRESS: About = About {
     version: "12.3.0",
     settings: &["gazebo", "fortress"],
     is_asked: true,
+    is_for: None,
     names: Names::Exact,
     never: &[NEVER, "mimic"],
     read: |file, effects| read(file, Release::Twelve, effects),

@@ -14,6 +14,7 @@ pub const ABOUT: About = About {
     version: "0.13.1",
     settings: &["three"],
     is_asked: true,
+    is_for: None,
     names: Names::AnyCase,
     never: &[
         "collision dynamics damping friction safety_controller calibration version quat_xyzw",

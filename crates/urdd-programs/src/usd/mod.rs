@@ -16,6 +16,7 @@ pub const ABOUT: About = About {
     version: "0.3.4",
     settings: &["isaac", "newton"],
     is_asked: true,
+    is_for: None,
     names: Names::Expanded,
     never: &["version quat_xyzw", FURTHER],
     read,

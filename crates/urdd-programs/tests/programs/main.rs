@@ -1,6 +1,7 @@
 //! Readers held to the table of what programs did.
 #![allow(clippy::restriction, clippy::disallowed_methods)]
 
+mod control;
 mod gazebo;
 mod meshes;
 mod parts;
@@ -125,8 +126,10 @@ fn programs_have_names() {
         }
     }
     let named = |name| Program::of_name(name).collect::<Vec<_>>();
-    assert_eq!(named("humble"), [Program::Urdfdom3]);
-    assert_eq!(named("ros"), [Program::Urdfdom6]);
+    assert_eq!(named("humble"), [Program::Urdfdom3, Program::Control2]);
+    assert_eq!(named("noetic"), [Program::Urdfdom3]);
+    assert_eq!(named("ros"), [Program::Urdfdom6, Program::Control4]);
+    assert_eq!(named("ros2_control"), [Program::Control4, Program::Control2]);
     assert_eq!(named("gazebo"), [Program::Fortress, Program::Harmonic, Program::Jetty]);
     assert_eq!(named("jetty"), [Program::Jetty]);
     assert_eq!(named("webots"), []);
