@@ -35,6 +35,7 @@ mod settings;
 mod suggested;
 #[cfg(test)]
 mod tests;
+mod trail;
 pub mod urdf;
 pub mod written;
 mod xacro;
@@ -42,7 +43,7 @@ mod xacro;
 pub use decode::{
     Decoded, Decoding, Original, Repaired, TextOffsets, decode, mend_xml, undeclared_prefix,
 };
-pub use error::{SourceError, XacroFault};
+pub use error::{MacroCall, SourceError, XacroFault};
 pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};
 pub use folder_facts::FolderFacts;
 pub use format::{Format, RobotFile, format_of, robot_file};
@@ -59,4 +60,5 @@ pub use settings::{
     Declared, ImportOptions, Settings, XACRO_TIMEOUT, XacroSettings, declared_of, robots_of,
 };
 pub use urdf::cycles;
-pub use xacro::{Trail, included};
+pub use trail::Trail;
+pub use xacro::included;

@@ -20,7 +20,8 @@ use crate::settings::Settings;
 use crate::suggested::deciding;
 use crate::urdf::{self, Reading};
 use crate::written::Origin;
-use crate::xacro::{self, Trail};
+use crate::trail::Trail;
+use crate::xacro;
 
 /// Maximum number of repair rounds; one is enough unless this program has a bug.
 const MOST_ROUNDS: usize = 4;
