@@ -254,7 +254,7 @@ fn examined_import(
             },
             line: Some(Count(line)),
             column: Some(Count(column)),
-            macro_name: None,
+            ..WrittenAt::default()
         })
     };
     say_where(&mut examined.checks, &name, |place| {

@@ -59,6 +59,6 @@ pub use roots::Place;
 pub use settings::{
     Declared, ImportOptions, Settings, XACRO_TIMEOUT, XacroSettings, declared_of, robots_of,
 };
-pub use urdf::cycles;
 pub use trail::Trail;
+pub use urdf::cycles;
 pub use xacro::included;

@@ -18,9 +18,9 @@ use crate::loops::{self, CostlyElement, Said};
 use crate::note::{Note, Remark, SourcePlace};
 use crate::settings::Settings;
 use crate::suggested::deciding;
+use crate::trail::Trail;
 use crate::urdf::{self, Reading};
 use crate::written::Origin;
-use crate::trail::Trail;
 use crate::xacro;
 
 /// Maximum number of repair rounds; one is enough unless this program has a bug.
