@@ -334,8 +334,8 @@ types! {
         /// The element or the attribute that has the value, and the macro that holds that; null where that is the place
         /// itself.
         pub used_at: Option<MacroPlace>,
-        /// The calls of macros that it was made by, innermost first, with the macros that they call; only the outermost of
-        /// very many.
+        /// The calls of macros that it was made by, innermost first, with the macros that they call; of more than 16, the
+        /// innermost 15 and the outermost.
         pub calls: Vec<MacroPlace>,
     }
 

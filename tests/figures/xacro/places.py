@@ -80,7 +80,13 @@ def main_file(body):
     return f'{HEAD} name="r">\n{CALL}{body}</robot>\n'
 
 
-# By name: the files, and what `urdd lint` says of the negative mass, SRC003.
+# The axis is an attribute's finding, and the mass an element's.
+SLIDE = """  <link name="a"/><link name="b"/>
+  <joint name="j" type="prismatic"><parent link="a"/><child link="b"/><limit lower="0" upper="1" effort="1" velocity="1"/>
+    <axis xyz="${axis}"/></joint>
+"""
+
+# By name: the files, and where `urdd lint` says that the mass is negative, SRC003, or the axis is not of length 1, LNT012.
 FINDINGS = {
     "at a call": (
         {"urdf/r.urdf.xacro": main_file('  <xacro:part name="a" mass="-1"/>\n'), "urdf/part.xacro": PART},
@@ -104,6 +110,18 @@ FINDINGS = {
             "config/y.yaml": "# masses\na:\n  mass: -1\n",
         },
         "../config/y.yaml:3:9 by part.xacro:3:34 (part) called at r.urdf.xacro:4:3",
+    ),
+    "of an attribute": (
+        {"urdf/r.urdf.xacro": f'{HEAD} name="r">\n  <xacro:property name="axis" value="0 0 2"/>\n{SLIDE}</robot>\n'},
+        "r.urdf.xacro:2:31 by r.urdf.xacro:5:11",
+    ),
+    "of an attribute with a literal beside": (
+        {
+            "urdf/r.urdf.xacro": f'{HEAD} name="r">\n  <xacro:property name="axis" value="2"/>\n{SLIDE}</robot>\n'.replace(
+                "${axis}", "0 0 ${axis}"
+            )
+        },
+        "r.urdf.xacro:5:11",
     ),
     "in the macro": (
         {
@@ -232,7 +250,7 @@ def at(place):
 
 def finding(urdd, files):
     report = json.loads(lint(urdd, files, "json"))
-    (found,) = [one for one in report["urdds"][0]["findings"] if one["code"] == "SRC003"]
+    (found,) = [one for one in report["urdds"][0]["findings"] if one["code"] in ("SRC003", "LNT012")]
     written = found["places"][0]["written_at"]
     assert (found["file"], found["line"]) == (written["file"], written["line"])
     words = [at(written)]
