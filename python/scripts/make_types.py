@@ -83,7 +83,7 @@ class Types:
 
     def __init__(self) -> None:
         self.known: dict[str, dict[str, Any]] = {}
-        #: Lists that a minor version added to a type: reports of earlier versions lack them.
+        #: Lists, and what may be null, that a minor version added to a type: reports of earlier versions lack them.
         self.later: set[tuple[str, str]] = set()
         self.order: list[str] = []
 
@@ -254,7 +254,7 @@ def reader(types: Types, name: str) -> str:
     for key, schema in fields(definition).items():
         value = f'v["{key}"]'
         if (name, key) in types.later:
-            value = f'v.get("{key}", [])'
+            value = f'v.get("{key}", [])' if schema.get("type") == "array" else f'v.get("{key}")'
         line = f"        {attribute(key)}={types.expression(schema, value)},\n"
         if len(line) > 121:
             # As the formatter wraps it.
@@ -336,6 +336,7 @@ def report_file() -> str:
         readers += REPORT_READER.format(schema=schema, type=root, command=command, root=f"_{snake(root)}")
         names.append(f"read_{schema}")
     types.later = {(kind, "programs") for kind in ("Urdd", "Finding", "Place")}
+    types.later |= {("WrittenAt", "used_at"), ("WrittenAt", "calls")}
     imports = "import json\nfrom dataclasses import dataclass\nfrom typing import Any, Literal, TypeAlias"
     head = HEAD.format(
         title="The reports of a validation and of a comparison, as dataclasses.",

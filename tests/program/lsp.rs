@@ -166,6 +166,7 @@ fn a_message_beyond_the_bound_is_refused_before_it_is_read() {
 mod xacro {
     use super::*;
     use crate::lint::xacro::hand;
+    use crate::xacro_places::{MADE, folder, notes};
 
     /// What is shown of a file after it is saved.
     fn saved(folder: &Path, file: &str) -> Vec<Value> {
@@ -207,6 +208,24 @@ mod xacro {
         assert_eq!(place["range"]["start"]["line"], 5);
         let link = found.iter().find(|one| one["code"] == "LNT006").expect("LNT006");
         assert!(!link["message"].as_str().expect("it").contains("written"), "{link}");
+    }
+
+    #[test]
+    fn a_value_of_a_call_is_shown_at_the_call_with_the_macro() {
+        // The literal is in this file; in the second, in a YAML that the macro of another file reads.
+        for (value, character, lines) in [
+            (json!([0, 3, 1, "mass", ""]), 21, vec![4, 2]),
+            (json!([2, 2, 4, "", ""]), 0, vec![1, 4, 2]),
+        ] {
+            let folder = folder(notes(value), MADE, 0);
+            let found = saved(folder.path(), "urdf/r.urdf.xacro");
+            let mass = found.iter().find(|one| one["code"] == "SRC003").expect("SRC003");
+            let start = json!({"line": 2, "character": character});
+            assert_eq!(mass["range"]["start"], start, "{mass}");
+            let related = mass["relatedInformation"].as_array().expect("a list");
+            let line = |one: &Value| one["location"]["range"]["start"]["line"].clone();
+            assert_eq!(related.iter().map(line).collect::<Vec<_>>(), lines, "{mass}");
+        }
     }
 
     #[test]

@@ -52,3 +52,4 @@ mod texts;
 mod vectors;
 mod view;
 mod workspace;
+mod xacro_places;

@@ -68,7 +68,7 @@ const JSON: &[(&str, &str)] = &[
     ("crates/urdd-format/src/schema.rs", "the program's own"),
     ("crates/urdd-generate/src/donor/mod.rs", "MAX_DOCUMENT_BYTES"),
     ("crates/urdd-geometry/src/read/gltf/mod.rs", "a mesh within MAX_DOCUMENT_BYTES"),
-    ("crates/urdd-source/src/xacro.rs", "what the module beside xacro notes; 64 MiB"),
+    ("crates/urdd-source/src/trail.rs", "what the module beside xacro notes; 64 MiB"),
     ("crates/urdd-view/src/collection.rs", "MAX_DROP"),
     ("crates/urdd-view/src/http.rs", "the limit of a request's body"),
     ("crates/urdd-view/src/one_file.rs", "MAX_DOCUMENT_BYTES, MAX_ROBOT_BYTES, the program's own"),

@@ -332,7 +332,7 @@ types! {
         pub line: Option<Count>,
         /// Column in the line, in characters, from 1.
         pub column: Option<Count>,
-        /// The place in a .xacro file that it was made from; null where that is not known.
+        /// The place that xacro made it from; null where that is not known.
         pub written_at: Option<WrittenAt>,
         /// What should be there.
         pub expected: Option<String>,
@@ -353,7 +353,9 @@ types! {
         pub programs: Vec<Does>,
     }
 
-    /// The place in a .xacro file that a part of a URDF was made from.
+    /// The place that xacro made a part of a URDF from: the one literal that decides it, such as an attribute of a macro's
+    /// call, a property or a line of a YAML; without one, the element or the attribute in a .xacro file.
+    #[derive(Default)]
     pub struct WrittenAt {
         /// The file, as seen from the URDF's folder, with forward slashes.
         pub file: String,
@@ -362,6 +364,24 @@ types! {
         /// Column in the line, in characters, from 1.
         pub column: Option<Count>,
         /// The macro that holds it; null outside of macros.
+        pub macro_name: Option<String>,
+        /// The element or the attribute that has the value, and the macro that holds that; null where that is the place
+        /// itself.
+        pub used_at: Option<MacroPlace>,
+        /// The calls of macros that it was made by, innermost first, with the macros that they call; of more than 16, the
+        /// innermost 15 and the outermost.
+        pub calls: Vec<MacroPlace>,
+    }
+
+    /// A place in a .xacro file.
+    pub struct MacroPlace {
+        /// The file, as seen from the URDF's folder, with forward slashes.
+        pub file: String,
+        /// Line in the file, from 1.
+        pub line: Count,
+        /// Column in the line, in characters, from 1.
+        pub column: Count,
+        /// The macro; null outside of macros.
         pub macro_name: Option<String>,
     }
 

@@ -29,7 +29,11 @@ const EARLIER_REPORTS: EarlierVersions<2> = [
         &["programs", "imported", "xacro_arguments"],
         &["ProgramResult", "ProgramEffect", "Does", "Deed", "ImportedFrom", "ImportedPart"],
     ),
-    ("1.1.0", &["not_examined", "passed", "failed"], &["NotExamined", "Cause"]),
+    (
+        "1.1.0",
+        &["not_examined", "passed", "failed", "used_at", "calls"],
+        &["NotExamined", "Cause", "MacroPlace"],
+    ),
 ];
 
 /// The earlier versions of the report of differences, each with the lists that the one after it has more.

@@ -197,14 +197,14 @@ fn lint_file(
 
 /// Why a file was not examined that cannot be read.
 fn unread(path: &Path, error: &SourceError) -> NotExamined {
-    let (cause, at) = match error {
-        SourceError::Untaken { untaken, .. } => {
-            let at = untaken.iter().find_map(|one| one.nearest.clone());
-            let at = at.map(|(_, file, at)| (file, at.line, at.column));
-            (Cause::Arguments, Some(at.unwrap_or((stems(path).1, 1, 1))))
-        }
-        _ => (Cause::Unreadable, None),
+    let cause = match error {
+        SourceError::Untaken { .. } => Cause::Arguments,
+        _ => Cause::Unreadable,
     };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let at = error.place().map(|at| {
+        (urdd_source::written::seen_from(Path::new(&at.file), folder), at.line, at.column)
+    });
     answer::placed(answer::not_examined(cause, error.to_string()), at)
 }
 
@@ -273,7 +273,7 @@ fn examined_import(
             },
             line: Some(Count(line)),
             column: Some(Count(column)),
-            macro_name: None,
+            ..WrittenAt::default()
         })
     };
     say_where(&mut examined.checks, &name, |place| {

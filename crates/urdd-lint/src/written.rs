@@ -7,9 +7,9 @@ use urdd_findings::check::Check;
 use urdd_findings::finding::Finding;
 use urdd_findings::places::at;
 use urdd_format::index::Count;
-use urdd_format::report::{Place, ProgramResult, WrittenAt};
+use urdd_format::report::{MacroPlace, Place, ProgramResult, WrittenAt};
 use urdd_source::Trail;
-use urdd_source::written::{Written, WrittenMap};
+use urdd_source::written::{Written, WrittenMap, WrittenPlace};
 
 /// What "link `NAME`" is about: `link`, and the name.
 pub fn named(subject: &str) -> Option<(&str, &str)> {
@@ -43,7 +43,7 @@ pub fn say_where(
 }
 
 fn in_file(name: &str) -> WrittenAt {
-    WrittenAt { file: name.to_owned(), line: None, column: None, macro_name: None }
+    WrittenAt { file: name.to_owned(), ..WrittenAt::default() }
 }
 
 /// Says of findings and effects in the text that xacro made of the file `name` where in the xacro files they are.
@@ -69,7 +69,10 @@ pub fn say_where_expanded(
     for effect in programs.iter_mut().flat_map(|program| &mut program.effects) {
         let written = effect.line.zip(effect.column).and_then(|at| found.get(&position(at)));
         // An effect has a line, and no file.
-        let written = written.filter(|written| written.is_main).map(|written| written.at);
+        let places = written
+            .into_iter()
+            .flat_map(|written| [&written.place].into_iter().chain(&written.used_at));
+        let written = places.filter(|place| place.is_main).map(|place| place.at).next();
         effect.line = written.map(|at| Count(at.line));
         effect.column = written.map(|at| Count(at.column));
     }
@@ -77,10 +80,19 @@ pub fn say_where_expanded(
 
 /// A place as reports have it; `name` is that of the file that was expanded, maybe in a folder.
 fn as_reported(written: &Written, name: &str) -> WrittenAt {
+    let place = |place: &WrittenPlace| MacroPlace {
+        file: place.named(name),
+        line: Count(place.at.line),
+        column: Count(place.at.column),
+        macro_name: place.macro_name.clone(),
+    };
+    let MacroPlace { file, line, column, macro_name } = place(&written.place);
     WrittenAt {
-        file: written.named(name),
-        line: Some(Count(written.at.line)),
-        column: Some(Count(written.at.column)),
-        macro_name: written.macro_name.clone(),
+        file,
+        line: Some(line),
+        column: Some(column),
+        macro_name,
+        used_at: written.used_at.as_ref().map(place),
+        calls: written.calls.iter().map(place).collect(),
     }
 }

@@ -4,7 +4,7 @@ use std::cell::LazyCell;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use lsp_types::{Diagnostic, DiagnosticSeverity, Location};
+use lsp_types::{Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, Location};
 
 use crate::diagnostics::{
     Found, at_the_top, diagnostic, failures, further, line_of, message, not_well_formed, of_check,
@@ -15,7 +15,7 @@ use crate::project::Project;
 use urdd_findings::check::Check;
 use urdd_findings::finding::Finding;
 use urdd_format::index::Count;
-use urdd_format::report::{Place, WrittenAt};
+use urdd_format::report::{MacroPlace, Place, WrittenAt};
 use urdd_lint::{lint_source, lint_undeclared};
 use urdd_source::macros::has_no_link;
 use urdd_source::{FolderFacts, SourceError, read_source};
@@ -78,8 +78,9 @@ fn is_part(snapshot: &Snapshot) -> bool {
     !markup.elements.is_empty() && markup.attribute(text, 0, "name").is_none()
 }
 
-/// A finding at the place in the file that xacro made the element from, or at the element that includes that place's file;
-/// if that is not known, at the element of the same name; else at the top.
+/// A finding at the place in the file that xacro made the element from; if that is in another file, where the value is used
+/// or the macro called in this one, or at the element that includes that file; if it is not known, at the element of the same
+/// name; else at the top.
 fn of_place(
     snapshot: &Snapshot,
     files: &Files,
@@ -88,20 +89,41 @@ fn of_place(
     place: &Place,
 ) -> Diagnostic {
     let mut message = message(finding, place);
-    let mut related = None;
+    let mut related = Vec::new();
     let written = place.written_at.as_ref().filter(|at| at.line.is_some());
     let offset = match written.map(|at| Written::new(snapshot, files, at)) {
         Some(Written::Here(offset)) => offset,
         Some(Written::There { location, words, offset }) => {
             message += &format!(" ({words})");
-            related = location.map(|location| vec![further(location, &words)]);
+            related.extend(location.map(|location| further(location, &words)));
             offset
         }
         None => same_name(snapshot, place).unwrap_or_else(|| snapshot.text.content_start()),
     };
+    related.extend(written.into_iter().flat_map(|written| trail(snapshot, written)));
     let mut found = of_offset(snapshot, check, finding, place, offset, &message);
-    found.related_information = related;
+    found.related_information = Some(related).filter(|related| !related.is_empty());
     found
+}
+
+/// Where a value is used, and the calls of macros by which xacro came there.
+fn trail(snapshot: &Snapshot, at: &WrittenAt) -> Vec<DiagnosticRelatedInformation> {
+    let words = |what: &str, place: &MacroPlace| match &place.macro_name {
+        Some(name) => format!("{what}: macro `{name}`"),
+        None => what.to_owned(),
+    };
+    let used_at = at.used_at.iter().map(|place| (place, words("the value is used here", place)));
+    let calls = at.calls.iter().map(|place| (place, words("called here", place)));
+    let shown = used_at.chain(calls).filter_map(|(place, words)| {
+        let location = line_of(&resolved(snapshot, &place.file), place.line.get())?;
+        Some(further(location, &words))
+    });
+    shown.collect()
+}
+
+/// A file of a report, with symbolic links resolved.
+fn resolved(snapshot: &Snapshot, file: &str) -> PathBuf {
+    fs::canonicalize(snapshot.folder.join(file)).unwrap_or_default()
 }
 
 /// The document's own file, and those that it includes with the byte offsets of the elements that do, with symbolic links
@@ -122,10 +144,12 @@ enum Written {
 impl Written {
     fn new(snapshot: &Snapshot, files: &Files, at: &WrittenAt) -> Self {
         let (line, column) = (at.line.map_or(1, Count::get), at.column.map_or(1, Count::get));
-        let file = fs::canonicalize(snapshot.folder.join(&at.file)).unwrap_or_default();
+        let file = resolved(snapshot, &at.file);
         if files.own.as_ref() == Some(&file) {
             return Written::Here(snapshot.text.reported(line, column));
         }
+        let mut around = at.used_at.iter().chain(&at.calls);
+        let here = around.find(|place| files.own == Some(resolved(snapshot, &place.file)));
         let in_macro = |name| format!(", in the macro `{name}`");
         let in_macro = at.macro_name.as_ref().map(in_macro).unwrap_or_default();
         let mut included = files.included.iter();
@@ -133,7 +157,11 @@ impl Written {
         Written::There {
             location: line_of(&file, line),
             words: format!("written at {}:{line}{in_macro}", at.file),
-            offset: element.map_or_else(|| snapshot.text.content_start(), |(_, start)| *start),
+            offset: match (here, element) {
+                (Some(here), _) => snapshot.text.reported(here.line.get(), here.column.get()),
+                (None, Some((_, start))) => *start,
+                (None, None) => snapshot.text.content_start(),
+            },
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Why a description could not be read.
 
 use std::fmt;
+use std::path::Path;
 
 use thiserror::Error;
 use urdd_directory::cancellation::Cancelled;
@@ -8,6 +9,7 @@ use urdd_directory::position::Position;
 use urdd_format::escape;
 
 use crate::fault::PlacedFault;
+use crate::note::SourcePlace;
 use crate::untaken::Untaken;
 
 /// Maximum number of faults of a file that are shown one by one.
@@ -26,7 +28,7 @@ pub enum SourceError {
         "{file}: expanding this file needs the program `xacro`, which is not on the PATH; install it (`pip install xacro`, or ROS), or expand the file elsewhere: `xacro {file} > robot.urdf`"
     )]
     NoXacro { file: String },
-    #[error("{file}: `xacro` could not expand it: {fault}")]
+    #[error("{}: {fault}", xacro_failed(file, fault))]
     Xacro { file: String, fault: Box<XacroFault> },
     /// It was not expanded, for want of arguments.
     #[error(
@@ -75,6 +77,43 @@ impl SourceError {
         SourceError::Read { file: file.to_owned(), reason: reason.to_string() }
     }
 
+    /// Where it is: the innermost place that is known, in the file or in one that it includes. Line and column are 0 for a
+    /// file as a whole; `None` for an error of no file.
+    pub fn place(&self) -> Option<SourcePlace> {
+        let at = |file: &String, line, column| SourcePlace { file: file.clone(), line, column };
+        Some(match self {
+            SourceError::Refused { file, faults } => match faults.first() {
+                Some(fault) => fault.place(file),
+                None => at(file, 0, 0),
+            },
+            SourceError::Xacro { file, fault } => {
+                fault.place.clone().unwrap_or_else(|| at(file, 0, 0))
+            }
+            SourceError::NeedsArguments { file, needed, fault } => {
+                match needed.first().and_then(|argument| argument.at) {
+                    Some(place) => at(file, place.line, place.column),
+                    None => fault.place.clone().unwrap_or_else(|| at(file, 0, 0)),
+                }
+            }
+            SourceError::Untaken { file, untaken } => {
+                match untaken.iter().find_map(|one| one.nearest.as_ref()) {
+                    Some((_, own, place)) => {
+                        let file = Path::new(file).with_file_name(own);
+                        at(&file.to_string_lossy().into_owned(), place.line, place.column)
+                    }
+                    None => at(file, 1, 1),
+                }
+            }
+            SourceError::Import { file, line, column, .. } => at(file, *line, *column),
+            SourceError::Read { file, .. }
+            | SourceError::NoXacro { file }
+            | SourceError::IsUrdf { file }
+            | SourceError::SaysItsLoops { file, .. }
+            | SourceError::Internal { file, .. } => at(file, 0, 0),
+            SourceError::Cancelled => return None,
+        })
+    }
+
     /// A machine-readable code for the kind of error.
     pub fn code(&self) -> &'static str {
         match self {
@@ -102,6 +141,28 @@ pub struct XacroFault {
     pub further: Vec<String>,
     /// The package that was not found.
     pub package: Option<String>,
+    /// What xacro was at when it failed.
+    pub place: Option<SourcePlace>,
+    /// The calls of macros around that, innermost first.
+    pub calls: Vec<MacroCall>,
+}
+
+/// A call of a macro.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MacroCall {
+    /// Where it is.
+    pub place: SourcePlace,
+    /// The macro's name.
+    pub name: String,
+}
+
+/// Where xacro failed, and at what.
+fn xacro_failed(file: &str, fault: &XacroFault) -> String {
+    match &fault.place {
+        Some(place) if place.file == file => format!("{place}: `xacro` could not expand it"),
+        Some(place) => format!("{place}: `xacro` could not expand {file}"),
+        None => format!("{file}: `xacro` could not expand it"),
+    }
 }
 
 impl XacroFault {
@@ -121,7 +182,11 @@ impl From<String> for Box<XacroFault> {
 impl fmt::Display for XacroFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.reason)?;
-        self.further.iter().try_for_each(|line| write!(f, "; {line}"))
+        self.further.iter().try_for_each(|line| write!(f, "; {line}"))?;
+        let call = |call: &MacroCall| {
+            write!(f, "; by the macro `{}`, called at {}", escape::line(&call.name), call.place)
+        };
+        self.calls.iter().try_for_each(call)
     }
 }
 
@@ -130,7 +195,9 @@ fn untaken_words(untaken: &[Untaken]) -> String {
     let one = |one: &Untaken| {
         let tip = match &one.nearest {
             Some((like, file, at)) => {
-                format!("`{like}` ({file}:{at}) has no value and may be meant: correct one of the two names")
+                format!(
+                    "`{like}` ({file}:{at}) has no value and may be meant: correct one of the two names"
+                )
             }
             None => "correct its name there, or remove it".to_owned(),
         };

@@ -35,6 +35,7 @@ mod settings;
 mod suggested;
 #[cfg(test)]
 mod tests;
+mod trail;
 mod untaken;
 pub mod urdf;
 pub mod written;
@@ -43,7 +44,7 @@ mod xacro;
 pub use decode::{
     Decoded, Decoding, Original, Repaired, TextOffsets, decode, mend_xml, undeclared_prefix,
 };
-pub use error::{SourceError, XacroFault};
+pub use error::{MacroCall, SourceError, XacroFault};
 pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};
 pub use folder_facts::FolderFacts;
 pub use format::{Format, RobotFile, format_of, robot_file};
@@ -59,6 +60,7 @@ pub use roots::Place;
 pub use settings::{
     Declared, ImportOptions, Settings, XACRO_TIMEOUT, XacroSettings, declared_of, robots_of,
 };
+pub use trail::Trail;
 pub use untaken::Untaken;
 pub use urdf::cycles;
-pub use xacro::{Trail, included};
+pub use xacro::included;

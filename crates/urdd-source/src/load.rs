@@ -18,10 +18,11 @@ use crate::loops::{self, CostlyElement, Said};
 use crate::note::{Note, Remark, SourcePlace};
 use crate::settings::Settings;
 use crate::suggested::deciding;
+use crate::trail::Trail;
 use crate::untaken::untaken;
 use crate::urdf::{self, Reading};
 use crate::written::Origin;
-use crate::xacro::{self, Trail};
+use crate::xacro;
 
 /// Maximum number of repair rounds; one is enough unless this program has a bug.
 const MOST_ROUNDS: usize = 4;

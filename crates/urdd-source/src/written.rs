@@ -2,47 +2,139 @@
 
 use std::collections::HashMap;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 use urdd_directory::position::{LineIndex, Position};
 use urdd_directory::regular;
 use urdd_xml::Node;
 use urdd_xml::element::name;
 
+use crate::error::MacroCall;
 use crate::fault::{Fault, PlacedFault};
 use crate::files::MAX_SOURCE_BYTES;
 use crate::note::SourcePlace;
-use crate::xacro::Trail;
+use crate::trail::{ElementPlace, Trail, ValuePlace};
 
-/// What a place of an expansion was made from.
+/// A place in a file that a person wrote.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Written {
+pub struct WrittenPlace {
     /// The file, as seen from the folder of the one that was expanded, with forward slashes.
     pub file: String,
     /// Whether it is the one that was expanded.
     pub is_main: bool,
     /// The place in it.
     pub at: Position,
-    /// The macro that holds it.
+    /// The macro that holds it; that of a call is the one that is called.
     pub macro_name: Option<String>,
 }
 
-impl Written {
+impl WrittenPlace {
     /// The name of its file, where the one that was expanded is called `main`.
     pub fn named(&self, main: &str) -> String {
         match self.is_main {
             true => main.to_owned(),
-            false => Path::new(main).with_file_name(&self.file).to_string_lossy().into_owned(),
+            false => plain(&Path::new(main).with_file_name(&self.file).to_string_lossy()),
         }
     }
+
+    fn of_source(&self, main: &str) -> SourcePlace {
+        let Position { line, column } = self.at;
+        SourcePlace { file: self.named(main), line, column }
+    }
+}
+
+/// What a place of an expansion was made from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Written {
+    /// The one literal that it is from, such as an attribute of a macro's call, a property or a line of a YAML; without one,
+    /// the element or the attribute.
+    pub place: WrittenPlace,
+    /// The element or the attribute, where the literal is elsewhere.
+    pub used_at: Option<WrittenPlace>,
+    /// The calls of macros that it is from, innermost first.
+    pub calls: Vec<WrittenPlace>,
+}
+
+/// The files of a trail: their names as [`WrittenPlace`] has them, whether they are the one that was expanded, and their
+/// texts where these could be read.
+struct SourceFiles(Vec<(String, bool, Option<String>)>);
+
+/// The texts of files by the files' numbers.
+type Sources<'a> = HashMap<usize, (Marked<'a>, LineIndex<'a>)>;
+
+impl SourceFiles {
+    fn new(trail: &Trail, file: &Path) -> Self {
+        let main = file.canonicalize().unwrap_or_else(|_| file.to_owned());
+        let folder = main.parent().unwrap_or(Path::new("")).to_owned();
+        let mut left = MAX_SOURCE_BYTES;
+        let files = trail.files.iter().map(|path| {
+            // As Rust spells it.
+            let path = &path.canonicalize().unwrap_or_else(|_| path.clone());
+            let text = regular::read(path, left).ok();
+            left -= text.as_ref().map_or(0, |text| text.len() as u64);
+            let text = text.and_then(|text| String::from_utf8(text).ok());
+            (seen_from(path, &folder), *path == main, text)
+        });
+        SourceFiles(files.collect())
+    }
+
+    /// Where a place is, more exactly than it was noted: at the attribute, and at the parameter in it.
+    fn find<'a>(&'a self, place: &ValuePlace, sources: &mut Sources<'a>) -> Option<WrittenPlace> {
+        let ValuePlace(number, line, column, attribute, parameter) = place;
+        let (file, is_main, text) = self.0.get(*number)?;
+        let at = Position { line: *line, column: *column };
+        let mut found =
+            WrittenPlace { file: file.clone(), is_main: *is_main, at, macro_name: None };
+        if let Some(text) = text {
+            let (marked, lines) =
+                sources.entry(*number).or_insert_with(|| (Marked::new(text), LineIndex::new(text)));
+            if let Some(element) = lines.offset(at) {
+                let attribute = marked.attribute(element, attribute);
+                found.at = lines.position(marked.parameter(attribute, parameter));
+                found.macro_name = marked.macro_around(element).map(str::to_owned);
+            }
+        }
+        Some(found)
+    }
+
+    /// A call of a macro and those around it.
+    fn calls<'a>(
+        &'a self,
+        (trail, innermost): (&Trail, Option<usize>),
+        sources: &mut Sources<'a>,
+    ) -> Vec<WrittenPlace> {
+        let around = trail.calls_around(innermost).into_iter();
+        let call = |(place, name): (ElementPlace, &str)| {
+            let found = self.find(&ValuePlace::element(place, ""), sources)?;
+            Some(WrittenPlace { macro_name: Some(name.to_owned()), ..found })
+        };
+        around.filter_map(call).collect()
+    }
+}
+
+/// Where xacro failed, and the calls of macros around that; `shown` is what the file that it expanded is called.
+pub(crate) fn fault_place(
+    trail: &Trail,
+    file: &Path,
+    shown: &str,
+) -> Option<(SourcePlace, Vec<MacroCall>)> {
+    let (place, innermost) = trail.fault.as_ref()?;
+    let (files, mut sources) = (SourceFiles::new(trail, file), HashMap::new());
+    let place = files.find(place, &mut sources)?.of_source(shown);
+    let calls = files.calls((trail, *innermost), &mut sources).into_iter();
+    let call = |call: WrittenPlace| MacroCall {
+        place: call.of_source(shown),
+        name: call.macro_name.unwrap_or_default(),
+    };
+    Some((place, calls.map(call).collect()))
 }
 
 /// A map of places.
 pub struct WrittenMap<'a> {
     trail: &'a Trail,
     expanded: Marked<'a>,
-    /// The files of the trail by their names as [`Written`] has them, whether they are the one that was expanded, and their texts where these could be read.
-    files: Vec<(String, bool, Option<String>)>,
+    files: SourceFiles,
+    values: HashMap<(usize, &'a str), &'a ValuePlace>,
 }
 
 impl<'a> WrittenMap<'a> {
@@ -50,55 +142,35 @@ impl<'a> WrittenMap<'a> {
     pub fn new(text: &'a str, trail: &'a Trail, file: &Path) -> Self {
         let expanded = Marked::new(text);
         let is_of_text = expanded.count == trail.elements.len();
-        let main = file.canonicalize().unwrap_or_else(|_| file.to_owned());
-        let folder = main.parent().unwrap_or(Path::new("")).to_owned();
-        let mut left = MAX_SOURCE_BYTES;
-        let files = trail.files.iter().take(if is_of_text { usize::MAX } else { 0 }).map(|path| {
-            // As Rust spells it.
-            let path = &path.canonicalize().unwrap_or_else(|_| path.clone());
-            let text = regular::read(path, left).ok();
-            left -= text.as_ref().map_or(0, |text| text.len() as u64);
-            (
-                seen_from(path, &folder),
-                *path == main,
-                text.and_then(|text| String::from_utf8(text).ok()),
-            )
-        });
-        WrittenMap { trail, files: files.collect(), expanded }
+        let values = trail.values.iter().map(|(element, name, at)| ((*element, name.as_str()), at));
+        WrittenMap {
+            trail,
+            expanded,
+            files: if is_of_text { SourceFiles::new(trail, file) } else { SourceFiles(Vec::new()) },
+            values: values.collect(),
+        }
     }
 
-    /// Where each of these places in the expansion is written, as far as that is known: the attribute, or else the element.
+    /// Where each of these places in the expansion is written, as far as that is known: the literal that a value is from, the
+    /// attribute, or else the element.
     pub fn find(&self, places: impl IntoIterator<Item = Position>) -> HashMap<Position, Written> {
         let lines = LineIndex::new(self.expanded.text);
-        let mut by_file: HashMap<usize, Vec<(Position, Position, &str)>> = HashMap::new();
-        for place in places {
-            let Some((element, attribute)) =
-                lines.offset(place).and_then(|offset| self.expanded.at(offset))
-            else {
-                continue;
+        let mut sources = HashMap::new();
+        let written = |place: Position| {
+            let (element, attribute) = self.expanded.at(lines.offset(place)?)?;
+            let (file, line, column, call) = (*self.trail.elements.get(element)?)?;
+            let own = ValuePlace::element((file, line, column), attribute);
+            let own = self.files.find(&own, &mut sources)?;
+            let value = self.values.get(&(element, attribute));
+            let value = value.and_then(|value| self.files.find(value, &mut sources));
+            let calls = self.files.calls((self.trail, call), &mut sources);
+            let (found, used_at) = match value {
+                Some(value) => (value, Some(own)),
+                None => (own, None),
             };
-            if let Some(Some((file, line, column))) = self.trail.elements.get(element) {
-                let at = Position { line: *line, column: *column };
-                by_file.entry(*file).or_default().push((place, at, attribute));
-            }
-        }
-        let mut found = HashMap::new();
-        for (file, places) in by_file {
-            let Some((file, is_main, text)) = self.files.get(file) else { continue };
-            let source = text.as_deref().map(|text| (Marked::new(text), LineIndex::new(text)));
-            found.extend(places.into_iter().map(|(place, at, attribute)| {
-                let (file, is_main) = (file.clone(), *is_main);
-                let mut written = Written { file, is_main, at, macro_name: None };
-                if let Some((marked, lines)) = &source
-                    && let Some(offset) = lines.offset(at)
-                {
-                    written.at = lines.position(marked.attribute(offset, attribute));
-                    written.macro_name = marked.macro_around(offset).map(str::to_owned);
-                }
-                (place, written)
-            }));
-        }
-        found
+            Some((place, Written { place: found, used_at, calls }))
+        };
+        places.into_iter().filter_map(written).collect()
     }
 }
 
@@ -154,6 +226,23 @@ impl<'a> Marked<'a> {
         own.find(|(_, _, name)| *name == wanted).map_or(element, |(start, ..)| *start)
     }
 
+    /// Where the parameter with a default is in the attribute at an offset; the attribute without it.
+    fn parameter(&self, attribute: usize, name: &str) -> usize {
+        let value = || {
+            let start = attribute + self.text[attribute..].find(['"', '\''])?;
+            let quote = self.text[start..].chars().next()?;
+            let start = start + quote.len_utf8();
+            let value = &self.text[start..start + self.text[start..].find(quote)?];
+            let is_it = |(at, _): &(usize, &str)| {
+                let after = value[at + name.len()..].trim_start();
+                value[..*at].chars().next_back().is_none_or(char::is_whitespace)
+                    && (after.starts_with('=') || after.starts_with(":="))
+            };
+            Some(start + value.match_indices(name).find(is_it)?.0)
+        };
+        if name.is_empty() { attribute } else { value().unwrap_or(attribute) }
+    }
+
     fn macro_around(&self, offset: usize) -> Option<&str> {
         let (element, _) = self.at(offset)?;
         self.around.get(element).copied()?.map(|name| self.macros[name].as_str())
@@ -170,6 +259,20 @@ pub fn seen_from(file: &Path, folder: &Path) -> String {
         up += "../";
     }
     file.to_string_lossy().into_owned()
+}
+
+/// A path without the folders that `..` leaves again.
+pub(crate) fn plain(path: &str) -> String {
+    let mut plain = PathBuf::new();
+    for part in Path::new(path).components() {
+        match (part, plain.components().next_back()) {
+            (Component::ParentDir, Some(Component::Normal(_))) => {
+                plain.pop();
+            }
+            (part, _) => plain.push(part),
+        }
+    }
+    plain.to_string_lossy().into_owned()
 }
 
 /// What a text was made from.
@@ -204,11 +307,7 @@ impl Origin<'_> {
         };
         let found = WrittenMap::new(text, trail, self.path).find(places.iter().copied());
         let place = |at: Position| match found.get(&at) {
-            Some(written) => SourcePlace {
-                file: written.named(self.shown),
-                line: written.at.line,
-                column: written.at.column,
-            },
+            Some(written) => written.place.of_source(self.shown),
             None => SourcePlace { file: self.shown.to_owned(), line: 0, column: 0 },
         };
         places.into_iter().map(place).collect()
@@ -237,7 +336,7 @@ mod tests {
     use std::path::Path;
 
     use super::WrittenMap;
-    use crate::xacro::Trail;
+    use crate::trail::Trail;
     use urdd_directory::position::Position;
 
     const MACROS: &str = "<robot xmlns:xacro='x'>\n<xacro:macro name='é'>\n é <link\n  \
@@ -255,11 +354,13 @@ mod tests {
         }
         std::fs::write(&main, "<robot name='r'/>").expect("written");
         std::fs::write(&macros, MACROS).expect("written");
-        let elements = vec![Some((0, 1, 1)), Some((1, 3, 4)), Some((1, 5, 1)), None];
-        let mut trail = Trail { files: vec![main.clone(), macros], elements };
+        let at = |file, line, column| Some((file, line, column, None));
+        let elements = vec![at(0, 1, 1), at(1, 3, 4), at(1, 5, 1), None];
+        let files = vec![main.clone(), macros];
+        let mut trail = Trail { files, elements, ..Trail::default() };
         let found = |trail: &Trail, main: &Path, column: u32| {
             let at = Position { line: 1, column };
-            let found = WrittenMap::new(EXPANDED, trail, main).find([at]).remove(&at)?;
+            let found = WrittenMap::new(EXPANDED, trail, main).find([at]).remove(&at)?.place;
             Some((found.file, found.is_main, found.at.to_string(), found.macro_name))
         };
         let column = |part: &str| EXPANDED.find(part).expect("it") as u32 + 1;

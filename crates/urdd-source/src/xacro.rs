@@ -13,12 +13,10 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::Duration;
 
-use serde::Deserialize;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_directory::file_type::FileType;
 use urdd_directory::listing::ReadError;
-use urdd_directory::target_lock::Temporary;
-use urdd_directory::{outputs, regular};
+use urdd_directory::regular;
 use urdd_format::escape;
 
 use crate::error::{SourceError, XacroFault};
@@ -27,6 +25,8 @@ use crate::package_index::PackageIndex;
 use crate::packages::Packages;
 use crate::process::{Ended, Running};
 use crate::settings::{Settings, XacroSettings};
+use crate::trail::{Trail, Watch};
+use crate::written;
 
 /// Maximum number of bytes to read from its standard error.
 const MAX_WORDS: u64 = 1 << 20;
@@ -56,8 +56,67 @@ pub(super) fn expand(
     let given = PackageIndex::new(packages, path, cancellation).map_err(failed)?;
     // Without it nothing is known of places, and xacro runs all the same.
     let watch = Watch::begin().ok();
-    let text = run(&[], path, shown, settings, &given, watch.as_ref(), cancellation)?;
-    Ok((text, watch.map(|watch| watch.trail()).unwrap_or_default()))
+    let made = run(&[], path, shown, settings, &given, watch.as_ref(), cancellation);
+    let trail = watch.map(|watch| watch.trail()).unwrap_or_default();
+    match made {
+        Ok(text) => Ok((text, trail)),
+        Err(SourceError::Xacro { file, fault }) => {
+            let fault = Box::new(placed(*fault, &trail, path, shown));
+            Err(SourceError::Xacro { file, fault })
+        }
+        Err(error) => Err(error),
+    }
+}
+
+/// What xacro says of the files and macros around a fault, which a trail says with lines.
+const AROUND: [&str; 5] = [
+    "when instantiating macro:",
+    "instantiated from:",
+    "in file:",
+    "included from:",
+    "when processing file:",
+];
+
+/// A fault with its place, and with the paths of files as seen from where the user names them.
+fn placed(mut fault: XacroFault, trail: &Trail, path: &Path, shown: &str) -> XacroFault {
+    if let Some((place, calls)) = written::fault_place(trail, path, shown) {
+        fault.further.retain(|line| !AROUND.iter().any(|start| line.starts_with(start)));
+        (fault.place, fault.calls) = (Some(place), calls);
+    }
+    let folder = path.canonicalize().ok().and_then(|path| Some(path.parent()?.to_owned()));
+    for line in fault.further.iter_mut().chain([&mut fault.reason]) {
+        *line = as_shown(line, folder.as_deref(), Path::new(shown));
+    }
+    fault
+}
+
+/// Maximum number of folders above that of the file in which paths are shown as seen from it.
+const MAX_ABOVE: usize = 4;
+
+/// A text in which absolute paths of files around the one that was shown so, in this folder, are as that one is shown.
+fn as_shown(text: &str, folder: Option<&Path>, shown: &Path) -> String {
+    let mut made = text.to_owned();
+    for (above, around) in folder.iter().flat_map(|folder| folder.ancestors()).enumerate() {
+        // Folders of the machine are in no repository.
+        if above > MAX_ABOVE || around.components().count() < 3 {
+            break;
+        }
+        let here = shown.with_file_name("../".repeat(above));
+        let here = match written::plain(&here.to_string_lossy()) {
+            path if path.is_empty() => path,
+            path => path + "/",
+        };
+        let around = format!("{}/", around.display());
+        let mut parts = made.split(&around);
+        let mut replaced = parts.next().unwrap_or_default().to_owned();
+        for rest in parts {
+            let is_inside = replaced.ends_with(|c: char| c.is_alphanumeric() || c == '/');
+            replaced += if is_inside { &around } else { &here };
+            replaced += rest;
+        }
+        made = replaced;
+    }
+    made
 }
 
 /// Runs xacro with these options on a file, and returns its output.
@@ -161,57 +220,13 @@ fn fault(words: &[u8], given: &PackageIndex) -> Option<Box<XacroFault>> {
         ),
         None => given.lasting(&reason),
     };
-    Some(Box::new(XacroFault { reason, further, package }))
+    Some(Box::new(XacroFault { reason, further, package, ..XacroFault::default() }))
 }
 
 /// The name in ament's "package 'NAME' not found".
 fn missing_package(line: &str) -> Option<String> {
     let (name, rest) = line.split_once("package '")?.1.split_once('\'')?;
     rest.trim_start().starts_with("not found").then(|| name.to_owned())
-}
-
-const MODULE: &str = include_str!("watch.py");
-/// Where the module writes.
-const PLACES: &str = "URDD_XACRO_PLACES";
-
-/// Where xacro has the elements of its output from, in the order of the output.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
-pub struct Trail {
-    /// The files, with symbolic links resolved.
-    pub(super) files: Vec<PathBuf>,
-    /// The file, the line and the column of each element; `None` for one that macros made of nothing.
-    pub(super) elements: Vec<Option<(usize, u32, u32)>>,
-}
-
-/// A run of xacro that is watched.
-pub(super) struct Watch(Temporary);
-
-impl Watch {
-    pub(super) fn begin() -> io::Result<Self> {
-        let folder = Temporary::begin(&std::env::temp_dir(), "xacro")?;
-        outputs::fresh(&folder.path().join("python/xacro/__init__.py"), MODULE.as_bytes())?;
-        Ok(Watch(folder))
-    }
-
-    fn notes(&self) -> PathBuf {
-        self.0.path().join("places.json")
-    }
-
-    /// The folder of the module: the first of those that Python looks in.
-    pub(super) fn folder(&self) -> PathBuf {
-        self.0.path().join("python")
-    }
-
-    /// Says where the module writes.
-    pub(super) fn tell(&self, command: &mut Command) {
-        command.env(PLACES, self.notes());
-    }
-
-    /// What it noted; nothing if it could not.
-    pub(super) fn trail(&self) -> Trail {
-        let text = regular::read(&self.notes(), MAX_SOURCE_BYTES).ok();
-        text.and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default()
-    }
 }
 
 /// Maximum number of folders, and of files, that are listed.

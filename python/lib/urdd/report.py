@@ -28,6 +28,7 @@ __all__ = [
     "Kind",
     "LinkDifference",
     "LinkNotVerified",
+    "MacroPlace",
     "Magnitude",
     "ModelNotVerified",
     "Module",
@@ -351,7 +352,7 @@ class Place:
     """Column in the line, in characters, from 1."""
 
     written_at: WrittenAt | None
-    """The place in a .xacro file that it was made from; null where that is not known."""
+    """The place that xacro made it from; null where that is not known."""
 
     expected: str | None
     """What should be there."""
@@ -381,7 +382,8 @@ class Place:
 
 @dataclass(frozen=True)
 class WrittenAt:
-    """The place in a .xacro file that a part of a URDF was made from."""
+    """The place that xacro made a part of a URDF from: the one literal that decides it, such as an attribute of a
+    macro's call, a property or a line of a YAML; without one, the element or the attribute in a .xacro file."""
 
     file: str
     """The file, as seen from the URDF's folder, with forward slashes."""
@@ -394,6 +396,31 @@ class WrittenAt:
 
     macro_name: str | None
     """The macro that holds it; null outside of macros."""
+
+    used_at: MacroPlace | None
+    """The element or the attribute that has the value, and the macro that holds that; null where that is the place
+    itself."""
+
+    calls: list[MacroPlace]
+    """The calls of macros that it was made by, innermost first, with the macros that they call; of more than 16,
+    the innermost 15 and the outermost."""
+
+
+@dataclass(frozen=True)
+class MacroPlace:
+    """A place in a .xacro file."""
+
+    file: str
+    """The file, as seen from the URDF's folder, with forward slashes."""
+
+    line: int
+    """Line in the file, from 1."""
+
+    column: int
+    """Column in the line, in characters, from 1."""
+
+    macro_name: str | None
+    """The macro; null outside of macros."""
 
 
 @dataclass(frozen=True)
@@ -999,6 +1026,17 @@ def _written_at(v: Any) -> WrittenAt:
         file=v["file"],
         line=None if v["line"] is None else int(v["line"]),
         column=None if v["column"] is None else int(v["column"]),
+        macro_name=v["macro_name"],
+        used_at=None if v.get("used_at") is None else _macro_place(v.get("used_at")),
+        calls=[_macro_place(x) for x in v.get("calls", [])],
+    )
+
+
+def _macro_place(v: Any) -> MacroPlace:
+    return MacroPlace(
+        file=v["file"],
+        line=int(v["line"]),
+        column=int(v["column"]),
         macro_name=v["macro_name"],
     )
 

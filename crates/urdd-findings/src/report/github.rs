@@ -6,6 +6,7 @@ use std::fmt::{self, Write};
 use super::human::{self, times};
 use super::programs::cell;
 use super::style::{NOT_EXAMINED, is_a_finding, unit};
+use super::variants::Variants;
 use crate::run::{file_in, is_inside};
 use urdd_format::escape;
 use urdd_format::readable::counted;
@@ -16,7 +17,8 @@ use urdd_format::report::{Kind, Report, Severity, Status, Urdd};
 /// # Errors
 /// If writing fails.
 pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::Result {
-    for (urdd, place) in report.urdds.iter().zip(places) {
+    let variants = Variants::new(report, Some(places));
+    for (number, (urdd, place)) in report.urdds.iter().zip(places).enumerate() {
         if let Some(why) = urdd.not_examined.as_ref().filter(|_| !is_a_finding(urdd)) {
             // A folder is no file that Actions shows.
             let name = urdd.path.rsplit('/').next().filter(|_| urdd.kind == Kind::Urdf);
@@ -37,7 +39,10 @@ pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::
             let reason = data(check.reason.as_deref().unwrap_or_default());
             writeln!(out, "::error title={} crashed::{reason}", check.code)?;
         }
-        for finding in &urdd.findings {
+        for (own, finding) in urdd.findings.iter().enumerate() {
+            if variants.is_repeated(number, own) {
+                continue;
+            }
             let command = match finding.severity {
                 Severity::Error => "error",
                 Severity::Warning => "warning",
@@ -57,6 +62,7 @@ pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::
             let parts = [
                 ("at", &first.filter(|_| !is_inside).map(|first| human::place(first, true))),
                 ("macro", &first.and_then(human::macro_of).map(str::to_owned)),
+                ("trail", &first.filter(|_| is_inside).and_then(human::trail_of)),
                 ("of", &finding.subject),
                 ("expected", &finding.expected),
                 ("found", &finding.actual),
@@ -66,8 +72,12 @@ pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::
                     text += &format!("; {label}: {part}");
                 }
             }
-            for argument in &urdd.xacro_arguments {
-                text += &format!("; with {argument}");
+            match variants.words(number, own) {
+                Some(words) => text += &format!("; in {words}"),
+                None => urdd
+                    .xacro_arguments
+                    .iter()
+                    .for_each(|argument| text += &format!("; with {argument}")),
             }
             text += &times(finding);
             let title = property(&format!("{} {}", finding.code, finding.name));

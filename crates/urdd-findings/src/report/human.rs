@@ -16,12 +16,13 @@ use super::style::{
     BOLD, DIM, GREEN, RED, Style, YELLOW, is_a_finding, is_in_part, list, severity, unit,
     unverified,
 };
+use super::variants::Variants;
 use super::{programs, summary};
 use crate::part::SkipReason;
 use crate::run::by_reason;
 use urdd_format::report::{
-    Cause, CheckStatus, Deed, Finding, ImportedFrom, Kind, Magnitude, NotExamined, Place, Report,
-    Skipped, Status, Urdd, Verdict,
+    Cause, CheckStatus, Deed, Finding, ImportedFrom, Kind, MacroPlace, Magnitude, NotExamined,
+    Place, Report, Skipped, Status, Urdd, Verdict,
 };
 
 /// Maximum number of URDDs that are shown one by one. More are summarized.
@@ -33,11 +34,12 @@ pub const FEW: usize = 3;
 /// If writing fails.
 pub fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
     let many = report.urdds.len() > FEW;
-    for urdd in &report.urdds {
+    let variants = Variants::new(report, None);
+    for (robot, urdd) in report.urdds.iter().enumerate() {
         let open = urdd.not_examined.is_some() || urdd.verdict == Verdict::Incomplete;
         let silent = style.quiet && urdd.verdict == Verdict::Pass && urdd.findings.is_empty();
         if !silent && (!many || style.full || open) {
-            write_urdd(urdd, style, many && !style.full, out)?;
+            write_urdd((&variants, robot), style, many && !style.full, out)?;
         }
     }
     if many {
@@ -56,7 +58,13 @@ pub fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result
 }
 
 /// Writes one URDD; if `brief`, only why it was not fully examined.
-fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> fmt::Result {
+fn write_urdd(
+    (variants, robot): (&Variants<'_>, usize),
+    style: Style,
+    brief: bool,
+    out: &mut impl Write,
+) -> fmt::Result {
+    let urdd = variants.robot(robot);
     let verdict = match (urdd.verdict, &urdd.not_examined) {
         (Verdict::Incomplete, _) => style.paint(RED, "INCOMPLETE"),
         (_, Some(why)) if !why.is_asked_for => style.paint(YELLOW, "not examined"),
@@ -79,7 +87,7 @@ fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> f
         writeln!(out, "  {what}{}", safe(&why.reason))?;
     }
     if !brief {
-        write_findings(urdd, style, out)?;
+        write_findings((variants, robot), style, out)?;
     }
     let crashed = |check: &&CheckStatus| check.status == Status::Crashed;
     for check in urdd.checks.iter().filter(crashed) {
@@ -115,10 +123,15 @@ pub(super) fn place_of(why: &NotExamined) -> Option<String> {
     Some(file + &line + &column)
 }
 
-fn write_findings(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
-    let mut above = None;
+fn write_findings(
+    (variants, robot): (&Variants<'_>, usize),
+    style: Style,
+    out: &mut impl Write,
+) -> fmt::Result {
+    let (urdd, mut above) = (variants.robot(robot), None);
     let is_urdf = |file: &str| urdd.kind == Kind::Urdf || FileType::Urdf.is_of(Path::new(file));
-    for finding in &urdd.findings {
+    let all = urdd.findings.iter().enumerate();
+    for (own, finding) in all.filter(|(own, _)| !variants.is_repeated(robot, *own)) {
         let title = match (&finding.module, &finding.file) {
             (Some(module), _) => module.as_str(),
             (None, Some(file)) if is_urdf(file) => "the URDF",
@@ -129,6 +142,13 @@ fn write_findings(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Resul
             writeln!(out, "  {}", style.paint(BOLD, safe(title)))?;
         }
         write_finding(finding, style, out)?;
+        if let Some(words) = variants.words(robot, own) {
+            writeln!(out, "      {} {}", style.paint(DIM, "in"), safe(&words))?;
+        }
+    }
+    if let Some((count, first)) = variants.repeats(robot) {
+        let text = format!("{} as of {}", counted(count, "finding"), safe(&first.label()));
+        writeln!(out, "  {}", style.paint(DIM, text))?;
     }
     Ok(())
 }
@@ -229,7 +249,7 @@ pub(super) fn off_by(magnitude: &Magnitude) -> String {
     }
 }
 
-/// File, line and column, pointer, subject, and macro. Line and column are omitted within the first line of a file: in a file of
+/// File, line and column, pointer, subject, macro, and how xacro came there. Line and column are omitted within the first line of a file: in a file of
 /// one line, the pointer and the subject are more useful.
 pub(super) fn place(found: &Place, with_file: bool) -> String {
     let file = found.file.as_deref().filter(|_| with_file);
@@ -244,11 +264,14 @@ pub(super) fn place(found: &Place, with_file: bool) -> String {
     let parts = [
         pointer.map(|pointer| safe(pointer).into_owned()),
         found.subject.as_ref().map(|subject| format!("({})", safe(subject))),
-        macro_of(found).map(|name| format!("in the macro {}", escape::quoted(name))),
+        macro_of(found).map(in_macro),
     ];
     for part in parts.into_iter().flatten() {
         let space = if place.is_empty() { "" } else { " " };
         place.push_str(&format!("{space}{part}"));
+    }
+    if let Some(trail) = trail_of(found) {
+        place.push_str(&format!(", {trail}"));
     }
     place
 }
@@ -256,6 +279,35 @@ pub(super) fn place(found: &Place, with_file: bool) -> String {
 /// The macro of a xacro file that holds a place.
 pub(super) fn macro_of(found: &Place) -> Option<&str> {
     found.written_at.as_ref()?.macro_name.as_deref()
+}
+
+fn in_macro(name: &str) -> String {
+    format!("in the macro {}", escape::quoted(name))
+}
+
+/// Maximum number of calls of macros that are named: that in the file that is expanded is the last.
+const CALLS: usize = 3;
+
+/// Where the value of a place is used, and by which calls of macros xacro came there.
+pub(super) fn trail_of(found: &Place) -> Option<String> {
+    let written = found.written_at.as_ref()?;
+    let at = |place: &MacroPlace| format!("{}:{}:{}", safe(&place.file), place.line, place.column);
+    let used_at = |place: &MacroPlace| {
+        let macro_name = place.macro_name.as_deref().map(in_macro);
+        format!("by {} {}", at(place), macro_name.unwrap_or_default()).trim_end().to_owned()
+    };
+    let mut parts: Vec<String> = written.used_at.iter().map(used_at).collect();
+    let left_out = written.calls.len().saturating_sub(CALLS);
+    for (number, call) in written.calls.iter().enumerate() {
+        match number {
+            _ if number < CALLS - 1 || number + 1 == written.calls.len() => {
+                parts.push(format!("called at {}", at(call)));
+            }
+            _ if number == CALLS - 1 => parts.push(format!("by {left_out} other calls")),
+            _ => {}
+        }
+    }
+    (!parts.is_empty()).then(|| parts.join(", "))
 }
 
 /// What was not checked, by reason. Rules for other formats are not mentioned, nor are rules about absent modules that

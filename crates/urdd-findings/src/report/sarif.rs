@@ -11,6 +11,7 @@ use sha2::{Digest, Sha256};
 
 use super::human::macro_of;
 use super::style::{NOT_EXAMINED, is_a_finding, unverified};
+use super::variants::Variants;
 use crate::code::Code;
 use crate::description::Description;
 use crate::run::{Run, file_in, is_inside};
@@ -18,7 +19,8 @@ use urdd_format::escape;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::readable::number;
 use urdd_format::report::{
-    CheckStatus, Finding, Fix, Kind, NotExamined, Place, Severity, Status, Urdd,
+    CheckStatus, Finding, Fix, Kind, MacroPlace, NotExamined, Place, Severity, Status, Urdd,
+    WrittenAt,
 };
 
 /// Base of relative paths: the working directory, under the name that readers of SARIF use for the root of a
@@ -41,8 +43,9 @@ pub fn sarif(run: &Run, places: &[String], exit_code: u8) -> serde_json::Result<
     let report = &run.report;
     let rules = used(run);
     let placed = || report.urdds.iter().zip(places);
+    let variants = Variants::new(report, Some(places));
     let results: Vec<Value> =
-        placed().flat_map(|(urdd, place)| results(urdd, place, &rules)).collect();
+        (0..places.len()).flat_map(|robot| results((&variants, robot), places, &rules)).collect();
     let notifications: Vec<Value> =
         placed().flat_map(|(urdd, place)| notifications(urdd, place, &rules)).collect();
     let stale: Vec<Value> = report
@@ -146,14 +149,19 @@ fn level(severity: Severity) -> &'static str {
     }
 }
 
-fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
+fn results(
+    (variants, robot): (&Variants<'_>, usize),
+    places: &[String],
+    rules: &Rules,
+) -> Vec<Value> {
+    let (urdd, place) = (variants.robot(robot), places[robot].as_str());
     let mut alike = HashMap::new();
-    let result = |finding: &Finding| {
+    let result = |(own, finding): (usize, &Finding)| {
         let mut result = json!({
             "ruleId": finding.code,
             "ruleIndex": index(rules, &finding.code),
             "level": level(finding.severity),
-            "message": message(&text(finding, &urdd.xacro_arguments)),
+            "message": message(&text(finding, &urdd.xacro_arguments, variants.words(robot, own))),
             "locations": finding.places.iter().take(1).map(|first| location(place, first)).collect::<Vec<_>>(),
         });
         let others = finding.places.iter().skip(1).take(MOST_LOCATIONS);
@@ -167,6 +175,9 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
             location["message"] = message(&escape::line(text));
             location
         }));
+        let written = finding.places.first().and_then(|first| first.written_at.as_ref());
+        let trail = written.into_iter().flat_map(|written| trail(place, written));
+        related.extend(trail.take(MOST_LOCATIONS - related.len()).collect::<Vec<_>>());
         if !related.is_empty() {
             result["relatedLocations"] = json!(related);
         }
@@ -182,14 +193,16 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
         if !finding.programs.is_empty() {
             result["properties"]["programs"] = json!(finding.programs);
         }
-        result["occurrenceCount"] = json!(finding.count.get());
+        result["occurrenceCount"] = json!(variants.count(robot, own));
         let kind = kind(finding, urdd, place);
         let nth = alike.entry(kind.clone()).or_insert(0);
         *nth += 1;
         result["partialFingerprints"] = json!({"urddFinding/v1": fingerprint(&kind, *nth)});
         result
     };
-    let mut results: Vec<Value> = urdd.findings.iter().map(result).collect();
+    let results = urdd.findings.iter().enumerate().map(result).enumerate();
+    let shown = results.filter(|(own, _)| !variants.is_repeated(robot, *own));
+    let mut results: Vec<Value> = shown.map(|(_, result)| result).collect();
     results.extend(unexamined(urdd).map(|why| {
         let at = Place {
             file: why.file.clone(),
@@ -236,14 +249,17 @@ fn describe_unexamined() -> Value {
 }
 
 /// The whole finding as one text: few readers show other fields of a result.
-fn text(finding: &Finding, arguments: &[String]) -> String {
+fn text(finding: &Finding, arguments: &[String], variants: Option<String>) -> String {
     let mut text = escape::line(&finding.message).into_owned();
+    let with = Some(arguments.join(" "));
+    let with = with.filter(|text| !text.is_empty() && variants.is_none());
     let lines = [
         ("Expected", finding.expected.clone()),
         ("Found", finding.actual.clone()),
         ("Tolerance", finding.tolerance.map(|tolerance| number(tolerance, 2))),
         ("Of", finding.subject.clone()),
-        ("With", Some(arguments.join(" ")).filter(|text| !text.is_empty())),
+        ("With", with),
+        ("In", variants),
         ("Macro", finding.places.first().and_then(macro_of).map(str::to_owned)),
         ("Times", Some(finding.count).filter(|count| count.get() > 1).map(|n| n.to_string())),
     ];
@@ -271,7 +287,11 @@ fn kind(finding: &Finding, urdd: &Urdd, place: &str) -> [String; 3] {
         }
         None => finding.subject.clone().unwrap_or_default(),
     };
-    let file = urdd.label_at(&file_in(place, finding.file.as_deref()));
+    // The element, not the literal that a value of it is from.
+    let written = finding.places.first().and_then(|first| first.written_at.as_ref());
+    let used_at = written.and_then(|written| written.used_at.as_ref());
+    let file = used_at.map(|used_at| used_at.file.as_str()).or(finding.file.as_deref());
+    let file = urdd.label_at(&file_in(place, file));
     [finding.code.clone(), file, what]
 }
 
@@ -296,6 +316,32 @@ fn related(urdd: &str, other: &Place) -> Value {
         location["message"] = message(&escape::line(&format!("Here too: {}", text.join("; "))));
     }
     location
+}
+
+/// Where the value of a place is used, and the calls of macros by which xacro came there.
+fn trail(urdd: &str, written: &WrittenAt) -> impl Iterator<Item = Value> {
+    let at = |here: &MacroPlace, text: String| {
+        let file = Some(here.file.clone());
+        let here =
+            Place { file, line: Some(here.line), column: Some(here.column), ..Place::default() };
+        let mut location = location(urdd, &here);
+        location["message"] = message(&escape::line(&text));
+        location
+    };
+    let used_at = written.used_at.iter().map(move |here| match &here.macro_name {
+        Some(name) => at(here, format!("The value is used here, in the macro `{name}`")),
+        None => at(here, "The value is used here".to_owned()),
+    });
+    let calls = written.calls.iter().map(move |here| {
+        at(
+            here,
+            format!(
+                "The macro `{}` is called here",
+                here.macro_name.as_deref().unwrap_or_default()
+            ),
+        )
+    });
+    used_at.chain(calls)
 }
 
 /// A fix: the edits of a file together, as the format asks.

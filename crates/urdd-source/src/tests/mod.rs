@@ -4,6 +4,7 @@
 #![allow(clippy::restriction, clippy::disallowed_methods)]
 
 mod arguments;
+mod error;
 mod files;
 mod inspect;
 mod installed;
