@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use crate::Files;
 use crate::arguments::{ArgumentsError, XacroArgument, arguments, needed};
+use crate::launched::by_python;
 use crate::settings::Settings;
-use crate::suggested::choices;
 
 fn write(root: &Path, files: &[(&str, &str)]) {
     for (path, text) in files {
@@ -133,7 +133,10 @@ fn a_file_that_is_no_xml_is_said() {
 
 #[test]
 fn choices_are_literal_lists_alone() {
-    let found = |text: &str| choices(text).collect::<Vec<_>>();
+    let found = |text: &str| {
+        let all = by_python(text).filter(|one| !one.choices.is_empty());
+        all.map(|one| (one.name, one.choices)).collect::<Vec<_>>()
+    };
     let one = |name: &str, values: &[&str]| {
         vec![(name.to_owned(), values.iter().map(|&value| value.to_owned()).collect::<Vec<_>>())]
     };
