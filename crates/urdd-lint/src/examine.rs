@@ -24,7 +24,7 @@ use crate::rules::prelude::LintRule;
 use crate::settings::{LintSettings, NOT_EXPANDED, refusal};
 use crate::subject::Subject;
 use crate::written::say_where_expanded;
-use crate::{fixes, rules, told};
+use crate::{fixes, rounding, rules, told};
 
 const FAMILY: &str = "LNT";
 /// The rules that say what other rules do not see of what programs do.
@@ -107,6 +107,7 @@ pub fn examined(
     };
     let source = job.source(&examined.checks);
     let subject = Subject::new(name, folder, document, source.as_ref(), settings, &srdfs);
+    rounding::leave_out(&subject, &mut examined.checks);
     let is_mended = of_mended.is_some();
     job.run(&subject, &mut examined.checks, |checks| {
         let Some(mut asked) = job.ask() else { return Vec::new() };

@@ -17,6 +17,7 @@ mod in_programs;
 mod meaning;
 pub mod pose;
 mod programs;
+mod rounding;
 pub mod rules;
 pub mod settings;
 mod sources;

@@ -31,14 +31,21 @@ const OPTIONAL: [&str; 3] = ["axis", "dynamics", "origin"];
 /// Elements that are told apart by their order.
 const ORDERED: [&str; 2] = ["visual", "collision"];
 
+/// What a material says.
+const LOOKS: [(&str, &str); 2] = [("color", "rgba"), ("texture", "filename")];
+
 /// The differences of a URDF.
 #[derive(Default)]
 pub struct Differences<'a> {
-    /// The element of the first, its attribute, and what is said of it.
+    /// The element of the first, its attribute, and what is said of it. Looks, and what only some programs read, come last.
     pub first: Option<(Node<'a, 'a>, Option<&'a str>, String)>,
+    is_last: bool,
     /// Their number.
     pub count: usize,
 }
+
+/// Elements whose differences are named where there are no others.
+const LAST: [&str; 4] = ["material", "gazebo", "transmission", "ros2_control"];
 
 /// Compares two elements `<robot>`. `is_same_file` says of two names that differ whether both are those of one file.
 pub fn differences<'a, 'b>(
@@ -46,49 +53,55 @@ pub fn differences<'a, 'b>(
     made: Node<'b, 'b>,
     is_same_file: &dyn Fn(&str, &str) -> bool,
 ) -> Differences<'a> {
-    let mut found = Differences::default();
-    found.compare(urdf, made, is_same_file);
-    found
+    let looks = (Looks::of(urdf), Looks::of(made));
+    let mut comparison = Comparison { looks, is_same_file, found: Differences::default() };
+    comparison.compare(urdf, made);
+    comparison.found
 }
 
-impl<'a> Differences<'a> {
+struct Comparison<'a, 'b, 'f> {
+    looks: (Looks<'a>, Looks<'b>),
+    is_same_file: &'f dyn Fn(&str, &str) -> bool,
+    found: Differences<'a>,
+}
+
+impl<'a, 'b> Comparison<'a, 'b, '_> {
     fn add(&mut self, node: Node<'a, 'a>, attribute: Option<&'a str>, words: String) {
-        self.count += 1;
-        self.first.get_or_insert((node, attribute, words));
+        let found = &mut self.found;
+        found.count += 1;
+        let is_last = node.ancestors().any(|above| LAST.contains(&above.tag_name().name()));
+        if found.first.is_none() || found.is_last && !is_last {
+            (found.first, found.is_last) = (Some((node, attribute, words)), is_last);
+        }
     }
 
-    fn compare<'b>(
-        &mut self,
-        urdf: Node<'a, 'a>,
-        made: Node<'b, 'b>,
-        is_same_file: &dyn Fn(&str, &str) -> bool,
-    ) {
-        let names = |node: Node| {
+    fn compare(&mut self, urdf: Node<'a, 'a>, made: Node<'b, 'b>) {
+        let element = name(urdf);
+        if element == "material" {
+            let values = self.looks.0.values(urdf).into_iter().zip(self.looks.1.values(made));
+            for ((element, key), (a, b)) in LOOKS.into_iter().zip(values) {
+                if !is_same_value(element, key, a, b, self.is_same_file) {
+                    self.add(urdf, None, words(element, key, a, b));
+                }
+            }
+            return;
+        }
+        let keys = |node: Node| {
             let own = node.attributes().filter(|one| one.namespace().is_none());
             own.map(|one| one.name().to_owned()).collect::<BTreeSet<String>>()
         };
-        for key in names(urdf).union(&names(made)) {
+        for key in keys(urdf).union(&keys(made)) {
             let own = attribute(urdf, key);
+            let value = own.map(|one| one.value());
             let other = attribute(made, key).map(|one| one.value());
-            let words = match (own.map(|one| one.value()), other) {
-                (a, b) if is_same_value(name(urdf), key, a, b, is_same_file) => continue,
-                (Some(a), Some(b)) => {
-                    format!("is `{}`, and xacro makes `{}`", Short::of(a), Short::of(b))
-                }
-                (Some(a), None) => format!("is `{}`, and xacro makes none", Short::of(a)),
-                (None, other) => {
-                    let other = Short::of(other.unwrap_or_default());
-                    format!("is missing, and xacro makes `{other}`")
-                }
-            };
-            let element = Short::of(name(urdf));
-            let words = format!("`{}` of `<{element}>` {words}", Short::of(key));
-            self.add(urdf, own.map(|one| one.name()), words);
+            if !is_same_value(element, key, value, other, self.is_same_file) {
+                self.add(urdf, own.map(|one| one.name()), words(element, key, value, other));
+            }
         }
         let (own, other) = (parts(urdf), parts(made));
         if own.is_empty() && other.is_empty() {
-            let [a, b] = [urdf, made].map(|node| node.text().map(str::trim).unwrap_or_default());
-            if !is_same_value("", "", Some(a), Some(b), is_same_file) {
+            let (a, b) = (text(urdf), text(made));
+            if !is_same_value("", "", Some(a), Some(b), self.is_same_file) {
                 let [a, b] = [a, b].map(Short::of);
                 self.add(urdf, None, format!("the text is `{a}`, and xacro makes `{b}`"));
             }
@@ -96,32 +109,76 @@ impl<'a> Differences<'a> {
         let partners = partners(&own, &other, urdf.parent_element().is_none());
         for (node, partner) in own.iter().zip(&partners) {
             match partner {
-                Some(partner) => self.compare(*node, other[*partner], is_same_file),
+                Some(partner) => self.compare(*node, other[*partner]),
                 None if is_default(*node) => {}
                 None => self.add(*node, None, format!("xacro makes no such `<{}>`", name(*node))),
             }
         }
         let taken: BTreeSet<usize> = partners.into_iter().flatten().collect();
-        let missing = other
-            .iter()
-            .enumerate()
-            .filter(|(at, node)| !taken.contains(at) && !is_default(**node));
+        let missing = other.iter().enumerate();
+        let missing = missing.filter(|(at, node)| !taken.contains(at) && !is_default(**node));
         for (_, node) in missing {
             let of = Some(label(*node)).filter(|label| !label.is_empty());
             let of = of.map(|label| format!(" `{}`", Short::of(label))).unwrap_or_default();
-            self.add(
-                urdf,
-                None,
-                format!("`<{}>`{of} is missing", Short::of(node.tag_name().name())),
-            );
+            let element = Short::of(node.tag_name().name());
+            self.add(urdf, None, format!("`<{element}>`{of} is missing"));
         }
     }
 }
 
-/// The elements in one that mean something.
+fn text<'d>(node: Node<'d, 'd>) -> &'d str {
+    node.text().map(str::trim).unwrap_or_default()
+}
+
+/// The materials at the top, by their names.
+struct Looks<'d>(HashMap<&'d str, [Option<&'d str>; 2]>);
+
+impl<'d> Looks<'d> {
+    fn of(robot: Node<'d, 'd>) -> Self {
+        let mut all: HashMap<&str, [Option<&str>; 2]> = HashMap::new();
+        for (_, top) in children(robot).filter(|(name, _)| *name == "material") {
+            let known = all.entry(top.attribute("name").unwrap_or_default()).or_default();
+            let own = own_looks(top);
+            *known = [known[0].or(own[0]), known[1].or(own[1])];
+        }
+        Looks(all)
+    }
+
+    /// The colour and the texture of a material; what it does not state is that of the one of its name at the top.
+    fn values(&self, material: Node<'d, 'd>) -> [Option<&'d str>; 2] {
+        let name = material.attribute("name").unwrap_or_default();
+        let (own, top) = (own_looks(material), self.0.get(name).copied().unwrap_or_default());
+        [own[0].or(top[0]), own[1].or(top[1])]
+    }
+}
+
+fn own_looks<'d>(material: Node<'d, 'd>) -> [Option<&'d str>; 2] {
+    LOOKS.map(|(element, key)| {
+        let found = children(material).find(|(name, _)| *name == element);
+        found.and_then(|(_, found)| found.attribute(key))
+    })
+}
+
+fn words(element: &str, key: &str, own: Option<&str>, other: Option<&str>) -> String {
+    let words = match (own, other) {
+        (Some(a), Some(b)) => format!("is `{}`, and xacro makes `{}`", Short::of(a), Short::of(b)),
+        (Some(a), None) => format!("is `{}`, and xacro makes none", Short::of(a)),
+        (None, other) => {
+            format!("is missing, and xacro makes `{}`", Short::of(other.unwrap_or_default()))
+        }
+    };
+    format!("`{}` of `<{}>` {words}", Short::of(key), Short::of(element))
+}
+
+/// The elements in one that mean something. Materials at the top do where links use them.
 fn parts<'d>(node: Node<'d, 'd>) -> Vec<Node<'d, 'd>> {
     let turns = !matches!(node.attribute("type"), Some("fixed" | "floating"));
-    let is_some = |(name, _): &(&str, Node)| *name != "axis" || turns;
+    let is_top = node.parent_element().is_none();
+    let is_some = |(name, _): &(&str, Node)| match *name {
+        "axis" => turns,
+        "material" => !is_top,
+        _ => true,
+    };
     children(node).filter(is_some).map(|(_, child)| child).collect()
 }
 
@@ -213,7 +270,8 @@ mod tests {
     use super::differences;
     use urdd_xml::Xml;
 
-    const ARM: &str = r#"<robot name="arm"><link name="base"><visual><geometry><mesh filename="package://arm/m.stl"/></geometry></visual></link>
+    const ARM: &str = r#"<robot name="arm"><link name="base"><visual><geometry><mesh filename="package://arm/m.stl"/></geometry><material name="red"/></visual></link>
+        <material name="red"><color rgba="1 0 0 1"/></material>
         <link name="tool"/><joint name="j" type="revolute"><origin xyz="0.1 0 0.333333" rpy="0 0 0"/><axis xyz="0 0 1"/>
         <limit lower="-1" upper="1" effort="1" velocity="1"/><parent link="base"/><child link="tool"/></joint></robot>"#;
 
@@ -238,6 +296,7 @@ mod tests {
             ("<link name=\"tool\"/>", "<link name=\"tool\" ><!-- a --></link>"),
             ("<axis", "<dynamics damping=\"0\"/><axis"),
             ("package://arm/", "file:///opt/share/arm/"),
+            ("red\"/></visual", "r\"><color rgba=\"1 0 0 1.0\"/></material></visual"),
         ] {
             assert_eq!(said(that, this), None, "{this}");
         }
@@ -254,6 +313,7 @@ mod tests {
             ("0 0 1", "0 0 -1", "`xyz` of `<axis>` is `0 0 1`, and xacro makes `0 0 -1`"),
             (" upper=\"1\"", "", "`upper` of `<limit>` is `1`, and xacro makes none"),
             ("<axis", "<dynamics damping=\"2\"/><axis", "`<dynamics>` is missing"),
+            ("1 0 0 1", "1 0 0 0", "`rgba` of `<color>` is `1 0 0 1`, and xacro makes `1 0 0 0`"),
             ("<link name=\"tool\"/>", "", "xacro makes no such `<link>`"),
             (
                 "<link name=\"tool\"/>",

@@ -228,8 +228,8 @@ pub fn unmatched(batch: &Batch, used: &BTreeSet<PathBuf>, settings: &Settings) -
         .collect();
     let what = match left.len() {
         0 => return None,
-        1 => "1 SRDF is of no robot".to_owned(),
-        several => format!("{several} SRDFs are of no robot"),
+        1 => "1 SRDF was matched with no robot".to_owned(),
+        several => format!("{several} SRDFs were matched with no robot"),
     };
     let listed = first_of(left.into_iter(), MAX_NAMED);
     let line = format!("{what} that was examined, so that its names were not compared: {listed}");

@@ -54,7 +54,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     match (first, unknown) {
         // One that was not made may be what it is.
         (_, Some(why)) => findings.skip(SkipReason::obstacle(why)),
-        (Some((xacro, Differences { first: Some((node, attribute, words)), count })), None) => {
+        (Some((xacro, Differences { first: Some((node, attribute, words)), count, .. })), None) => {
             let message = message(urdf.file, &xacro, &words, count);
             match attribute {
                 Some(attribute) => urdf.at_attribute(node, attribute, message),
