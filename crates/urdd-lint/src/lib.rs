@@ -253,9 +253,9 @@ fn lint_file(
         }
         Ok(examined)
     });
-    if !found.is_wanted && has_nameless_text(path, &settings.source.files) {
-        let advice = "; its `<robot>` has no name, so it may be a part for files that include it, and none here is known to: exclude it then";
-        examined.report.reason.iter_mut().for_each(|reason| *reason += advice);
+    let reason = examined.report.reason.as_mut().filter(|_| !found.is_wanted);
+    if let Some(reason) = reason.filter(|_| has_nameless_text(path, &settings.source.files)) {
+        *reason += "; its `<robot>` has no name, so it may be a part for files that include it, and none here is known to: exclude it then";
     }
     examined.report.path = seen;
     examined.report.xacro_arguments.clone_from(&job.arguments);

@@ -7,8 +7,12 @@ use urdd_format::short::Short;
 use urdd_xml::Node;
 use urdd_xml::element::{attribute, children, name};
 
-/// Numbers that are printed with few digits are the same up to this part of the largest beside them.
+use crate::rounding::half_unit;
+
+/// Numbers are the same up to this part of the largest beside them.
 const SAME: f64 = 1e-6;
+/// So are numbers that are rounded to fewer digits, from five on: the largest part that rounding to five digits takes away.
+const ROUNDED: f64 = 5e-5;
 /// Numbers up to this are 0.
 const ZERO: f64 = 1e-12;
 
@@ -240,8 +244,11 @@ fn is_same_value(
         (a, b) => return a == b,
     };
     if let (Some(a), Some(b)) = (numbers(a, element), numbers(b, element)) {
-        let largest = a.iter().chain(&b).fold(0.0, |most: f64, one| most.max(one.abs()));
-        let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME * largest + ZERO;
+        let largest = a.iter().chain(&b).fold(0.0, |most: f64, (one, _)| most.max(one.abs()));
+        let is_near = |((a, of_a), (b, of_b)): (&(f64, f64), &(f64, f64))| {
+            let rounding = of_a.max(*of_b).min(ROUNDED * a.abs().max(b.abs()));
+            (a - b).abs() <= (SAME * largest + ZERO).max(rounding * (1.0 + SAME))
+        };
         return a.len() == b.len() && a.iter().zip(&b).all(is_near);
     }
     let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
@@ -249,14 +256,15 @@ fn is_same_value(
         || key == "filename" && (is_of_package(a, b) || is_of_package(b, a) || is_same_file(a, b))
 }
 
-/// The numbers of a value; those of an axis, of length 1.
-fn numbers(text: &str, element: &str) -> Option<Vec<f64>> {
+/// The numbers of a value, each with half a unit in its last place; those of an axis, of length 1.
+fn numbers(text: &str, element: &str) -> Option<Vec<(f64, f64)>> {
+    let number = |word: &str| Some((word.parse().ok()?, half_unit(word)));
+    let numbers: Option<Vec<(f64, f64)>> = text.split_whitespace().map(number).collect();
     let numbers =
-        text.split_whitespace().map(|word| word.parse().ok().filter(|n: &f64| n.is_finite()));
-    let numbers = numbers.collect::<Option<Vec<f64>>>().filter(|all| !all.is_empty())?;
-    let length = numbers.iter().map(|one| one * one).sum::<f64>().sqrt();
-    let is_axis = element == "axis" && length > 0.0;
-    Some(numbers.iter().map(|one| if is_axis { one / length } else { *one }).collect())
+        numbers.filter(|all| !all.is_empty() && all.iter().all(|(one, _)| one.is_finite()))?;
+    let length = numbers.iter().map(|(one, _)| one * one).sum::<f64>().sqrt();
+    let by = if element == "axis" && length > 0.0 { length } else { 1.0 };
+    Some(numbers.iter().map(|(one, half)| (one / by, half / by)).collect())
 }
 
 /// Whether a path leads to what is called `package://PACKAGE/...`, as that of `$(find PACKAGE)/...` does.
@@ -291,6 +299,7 @@ mod tests {
         for (that, this) in [
             ("robot", "robot"),
             ("0.1 0 0.333333", "1e-1  0.0 0.3333333333"),
+            ("0.1 0 0.333333", "0.1 0 0.33333"),
             (" rpy=\"0 0 0\"", ""),
             ("0 0 1", "0 0 2"),
             ("<link name=\"tool\"/>", "<link name=\"tool\" ><!-- a --></link>"),

@@ -43,7 +43,9 @@ pub fn leave_out(urdf: &Subject, checks: &mut [Check]) {
 /// Whether what a mimic joint reaches is within its own limits but for half a unit in the last place of each number.
 fn is_rounded(mimic: Node, own: Node, driver: Node) -> bool {
     let value = |node: Node, key, default: f64| {
-        number(node, key).map_or((default, 0.0), |value| (value, half_unit(node, key)))
+        number(node, key).map_or((default, 0.0), |value| {
+            (value, half_unit(node.attribute(key).unwrap_or_default()))
+        })
     };
     let (multiplier, of_multiplier) = value(mimic, "multiplier", 1.0);
     let (offset, of_offset) = value(mimic, "offset", 0.0);
@@ -63,10 +65,10 @@ fn is_rounded(mimic: Node, own: Node, driver: Node) -> bool {
 }
 
 /// Half a unit in the last place of a number as it is written; 0 of a whole one.
-fn half_unit(node: Node, key: &str) -> f64 {
-    let text = node.attribute(key).unwrap_or_default().trim();
-    let digits = text.split(['e', 'E']).next().and_then(|text| text.split_once('.'));
-    let exponent = text.split(['e', 'E']).nth(1).and_then(|text| text.parse::<i32>().ok());
-    let places = digits.map_or(0, |(_, digits)| digits.len() as i32);
-    if places == 0 { 0.0 } else { 0.5 * 10_f64.powi(exponent.unwrap_or(0).saturating_sub(places)) }
+pub fn half_unit(text: &str) -> f64 {
+    let mut parts = text.trim().split(['e', 'E']);
+    let places = parts.next().and_then(|digits| digits.split_once('.'));
+    let places = places.map_or(0, |(_, digits)| i32::try_from(digits.len()).unwrap_or(i32::MAX));
+    let exponent = parts.next().and_then(|text| text.parse::<i32>().ok()).unwrap_or(0);
+    if places == 0 { 0.0 } else { 0.5 * 10_f64.powi(exponent.saturating_sub(places)) }
 }

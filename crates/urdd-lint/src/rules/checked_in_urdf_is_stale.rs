@@ -18,7 +18,7 @@ declare_lint! {
     /// Make it again: `xacro arm.urdf.xacro > arm.urdf`. If it was made with arguments, declare these in `urdd.toml`
     /// (`[[robot]]`): a `.urdf` that is one of the declared robots is no finding. If it is another robot, give it another name.
     ///
-    /// Formatting, the order of attributes and of parts, and rounded numbers (to a millionth) are no difference. It is compared where
+    /// Formatting, the order of attributes and of parts, and rounded numbers (to five digits or a millionth) are no difference. It is compared where
     /// xacro may run: with `--xacro`, or where the xacro file is named.
     LNT067 "checked-in-urdf-is-stale", Warning, WrongMotion, since "1.4.1"
 }

@@ -33,7 +33,7 @@ fn what_rounding_explains_is_no_finding() {
     for (driver, multiplier, finger, is_found) in [
         // 0.725 x 0.676 = 0.4901
         ("0.725", "0.676", "0.49", false),
-        ("0.725", "0.676", "0.4900", true),
+        ("0.72500", "0.67600", "0.49000", true),
         ("0.725", "0.676", "0.48", true),
         // Whole numbers are exact.
         ("1", "1", "0.9996", true),
