@@ -8,10 +8,15 @@ use super::arguments::{
     LoopsArguments, PackageArguments, RobotArguments, XacroArguments, only_arguments,
 };
 use super::inputs::advice;
-use super::output::{self, Failure};
+use super::output::{self, Failure, one_line};
 use super::watch::Watch;
-use urdd_diff::{DiffError, Options, Side, TOLERANCE, compare, markdown, text};
+use urdd_diff::{
+    DiffError, Folder, Options, Side, TOLERANCE, compare, compare_folders, folders_json,
+    folders_markdown, folders_text, markdown, status, text,
+};
 use urdd_directory::cancellation::Cancellation;
+use urdd_findings::settings_file::{SETTINGS_FILE, SettingsFile};
+use urdd_lint::declared;
 use urdd_source::{Settings, format_of};
 use urdd_validate::report;
 
@@ -20,10 +25,12 @@ use urdd_validate::report;
 #[command(
     after_help = "Compared by meaning: formatting, comments, the order of attributes, how a number is written and the format \
     of mesh files make no difference. docs/diff.md says what is compared, and how.\n\n\
-    Exit status: 0 no difference; 1 different; 2 usage error, or one of the robots could not be read."
+    Exit status: 0 no difference; 1 different, or a robot is in one folder alone; 2 usage error, or one of the robots could not \
+    be read."
 )]
 pub struct DiffArguments {
-    /// The robot before: a URDF, a xacro file, an MJCF, SDF or USD, or a URDD (a folder or a zip archive).
+    /// The robot before: a URDF, a xacro file, an MJCF, SDF or USD, or a URDD (a folder or a zip archive). Of two folders with an
+    /// urdd.toml each, all robots are compared.
     #[arg(value_name = "A")]
     before: PathBuf,
 
@@ -71,6 +78,17 @@ enum DiffFormat {
 }
 
 impl DiffArguments {
+    /// The two folders with their settings files, if both have one.
+    fn folders(&self) -> Result<Option<[(&Path, SettingsFile); 2]>, Failure> {
+        let files = [&self.before, &self.after].map(|folder| folder.join(SETTINGS_FILE));
+        let [before, after] = &files;
+        if !before.is_file() || !after.is_file() {
+            return Ok(None);
+        }
+        let (before, after) = (SettingsFile::read(before)?, SettingsFile::read(after)?);
+        Ok(Some([(&self.before, before), (&self.after, after)]))
+    }
+
     /// The arguments for xacro of A and B: those on the command line; without any, those that are declared of each. Where
     /// nobody declares A, as a temporary file of git, it is another version of B.
     fn of_xacro(&self) -> Result<[Vec<String>; 2], Failure> {
@@ -82,6 +100,36 @@ impl DiffArguments {
         let before = self.declared.arguments_of(&self.before)?;
         Ok([before.unwrap_or_else(|| after.clone()), after])
     }
+}
+
+/// Compares the robots of two folders, each with its own settings file.
+fn diff_folders(
+    arguments: &DiffArguments,
+    folders: [(&Path, SettingsFile); 2],
+    settings: &Settings,
+) -> Result<u8, Failure> {
+    let words = only_arguments(&arguments.more)?;
+    let open = |(folder, file): (&Path, SettingsFile)| {
+        let settings = Settings {
+            robots: declared(&file).into(),
+            xacro: arguments.xacro.settings(words.clone()),
+            ..settings.clone()
+        };
+        let excludes = &file.settings.excludes;
+        Folder::open(folder, settings, |path| excludes.iter().any(|one| one.matches(path)))
+            .map_err(one_line)
+    };
+    let [before, after] = folders.map(open);
+    let (before, after) = (before?, after?);
+    let found = output::without_panic_messages(|| {
+        compare_folders(&before, &after, arguments.no_findings, arguments.tolerance)
+    })?;
+    match arguments.format {
+        DiffFormat::Text => output::print(&folders_text(&found))?,
+        DiffFormat::Markdown => output::print_raw(&folders_markdown(&found))?,
+        DiffFormat::Json => output::print(&report::json(&folders_json(&found)?)?)?,
+    }
+    Ok(status(&found))
 }
 
 pub fn run(arguments: &DiffArguments, watch: &Watch) -> Result<u8, Failure> {
@@ -97,6 +145,9 @@ fn diff(arguments: &DiffArguments, cancellation: &Cancellation) -> Result<u8, Fa
     // It is about the URDF of the two.
     let says_itself = |path: &Path| format_of(path, &settings.files).is_some();
     let is_of_one = says_itself(&arguments.before) != says_itself(&arguments.after);
+    if let Some(folders) = arguments.folders()? {
+        return diff_folders(arguments, folders, &settings);
+    }
     let [of_before, of_after] = arguments.of_xacro()?;
     let open = |path: &PathBuf, of_xacro: Vec<String>| {
         let loops = settings.loops.clone().filter(|_| !(is_of_one && says_itself(path)));

@@ -97,7 +97,7 @@ fn lint(arguments: &LintArguments, watch: &Watch, color: Color) -> Result<u8, Fa
             ..arguments.packages.settings()?
         },
         baseline: baseline.map(Baseline::read).transpose()?.map(Arc::new),
-        without_meshes: false,
+        ..LintSettings::default()
     };
     if !arguments.programs.is_empty() {
         settings.report.programs.clone_from(&arguments.programs);

@@ -7,6 +7,7 @@ mod annotations;
 mod architecture;
 mod bad_input;
 mod broad_folders;
+mod checked_in;
 mod cli_schema;
 mod cli_validate;
 mod combine;

@@ -106,6 +106,43 @@ fn a_declared_robot_that_can_no_longer_be_made_fails_and_is_in_no_baseline() {
 }
 
 #[test]
+fn conditions_that_make_no_tree_are_named_and_tried() {
+    let folder = package();
+    let root = folder.path();
+    let main = "<robot name=\"arm\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n\
+        <xacro:arg name=\"cell_1\" default=\"false\"/><xacro:arg name=\"cell_2\" default=\"false\"/>\n\
+        <link name=\"world\"/><link name=\"base\"/>\n\
+        <xacro:if value=\"$(arg cell_1)\"/><xacro:if value=\"$(arg cell_2)\"/></robot>\n";
+    fs::write(root.join("arms/urdf/arm.urdf.xacro"), main).unwrap();
+    // With the first it makes a tree, with the second still none.
+    let script = "#!/bin/sh\necho \"<robot name='arm'><link name='world'/><link name='base'/>\"\n\
+        for word; do case \"$word\" in cell_1:=true) echo \"<joint name='j' type='fixed'><parent link='world'/><child link='base'/></joint>\";; esac; done\n\
+        echo '</robot>'\n";
+    fs::write(root.join("bin/xacro"), script).unwrap();
+    let (_, said) = run(root, &["lint", "arms", "--xacro"]);
+    let words = "or give another value of an argument that conditions ask for: `cell_1` (true, false), `cell_2` (true, false)";
+    assert!(said.contains("error URD004") && said.contains(words), "{said}");
+    run(root, &["lint", "arms", "--xacro", "--write-robots"]);
+    let lines = "[[robot]]\npath = \"arms/urdf/arm.urdf.xacro\"\nargs = { cell_1 = \"true\" }";
+    assert_eq!(fs::read_to_string(root.join("urdd.toml")).unwrap().trim(), lines);
+}
+
+#[test]
+fn a_part_that_nobody_is_known_to_include_is_said() {
+    let folder = package();
+    let root = folder.path();
+    let part =
+        "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\"><link name=\"tool_${PI}\"/></robot>";
+    fs::write(root.join("arms/urdf/frames.urdf.xacro"), part).unwrap();
+    let (status, said) = run(root, &["lint", "arms/urdf", "--xacro"]);
+    assert_ne!(status, Some(0), "{said}");
+    assert!(said.contains("its `<robot>` has no name, so it may be a part"), "{said}");
+    // Of a file that a person names, that is no answer.
+    let (_, said) = run(root, &["lint", "arms/urdf/frames.urdf.xacro"]);
+    assert!(!said.contains("may be a part"), "{said}");
+}
+
+#[test]
 fn where_a_package_is_missing_it_is_said_and_no_argument() {
     let folder = package();
     let root = folder.path();

@@ -7,6 +7,7 @@
 
 mod beyond_urdf;
 mod fields;
+mod folders;
 mod loops;
 mod modules;
 mod open;
@@ -16,6 +17,10 @@ mod render;
 mod shapes;
 mod side;
 
+pub use folders::{
+    Folder, Outcome, RobotDifference, compare_folders, folders_json, folders_markdown,
+    folders_text, status,
+};
 pub use render::{markdown, text};
 pub use side::{DiffError, Options, Side};
 

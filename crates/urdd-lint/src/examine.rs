@@ -1,6 +1,6 @@
 //! Runs the rules on a text: those of the validator that need only the source, and the family LNT.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use urdd_directory::position::LineIndex;
@@ -24,7 +24,7 @@ use crate::rules::prelude::LintRule;
 use crate::settings::{LintSettings, NOT_EXPANDED, refusal};
 use crate::subject::Subject;
 use crate::written::say_where_expanded;
-use crate::{fixes, rules, told};
+use crate::{fixes, rounding, rules, told};
 
 const FAMILY: &str = "LNT";
 /// The rules that say what other rules do not see of what programs do.
@@ -43,7 +43,24 @@ struct Job<'a> {
     srdfs: &'a OnceLock<Vec<SrdfFile>>,
 }
 
-/// The result, and the comments that allow what was not found. `original` is the file, if its bytes are not those of the
+/// What comes of a text.
+pub struct Examination {
+    /// The result.
+    pub examined: Examined,
+    /// The comments that allow what was not found.
+    pub stale: Vec<StaleIgnore>,
+    /// The SRDFs of the robot.
+    pub srdfs: Vec<PathBuf>,
+}
+
+impl Examination {
+    /// A result of nothing but itself.
+    pub fn alone(examined: Examined) -> Self {
+        Examination { examined, stale: Vec::new(), srdfs: Vec::new() }
+    }
+}
+
+/// Examines a text. `original` is the file, if its bytes are not those of the
 /// text; `name` is the file's in the report; relative mesh names refer to `folder`.
 pub fn examined(
     xml: &Xml<'_>,
@@ -51,7 +68,7 @@ pub fn examined(
     name: &str,
     folder: &Path,
     settings: &LintSettings,
-) -> (Examined, Vec<StaleIgnore>) {
+) -> Examination {
     let srdfs = OnceLock::new();
     let job = Job { xml, original, name, folder, settings, srdfs: &srdfs };
     let mut examined = examine_urdf(xml, name);
@@ -82,7 +99,7 @@ pub fn examined(
             }
         });
         examined.checks.extend(checked);
-        return (examined, Vec::new());
+        return Examination::alone(examined);
     };
     let taken = match &of_mended {
         Some(mended) => complete(&mut examined, examine_urdf(mended, name)),
@@ -90,6 +107,7 @@ pub fn examined(
     };
     let source = job.source(&examined.checks);
     let subject = Subject::new(name, folder, document, source.as_ref(), settings, &srdfs);
+    rounding::leave_out(&subject, &mut examined.checks);
     let is_mended = of_mended.is_some();
     job.run(&subject, &mut examined.checks, |checks| {
         let Some(mut asked) = job.ask() else { return Vec::new() };
@@ -133,7 +151,8 @@ pub fn examined(
         });
     }
     let stale = told::allow(document, name, &mut examined.checks);
-    (examined, stale)
+    let of_robot = subject.srdfs.get().into_iter().flatten();
+    Examination { examined, stale, srdfs: of_robot.map(|srdf| srdf.file.path.clone()).collect() }
 }
 
 impl Job<'_> {

@@ -25,6 +25,8 @@ pub struct LintSettings {
     pub baseline: Option<Arc<Baseline>>,
     /// Whether no mesh file is read, as while somebody types: rules about the shapes of links are skipped.
     pub without_meshes: bool,
+    /// Whether a xacro file is compared with the `.urdf` of its name beside it, since nobody examines that one (LNT067).
+    pub compares_checked_in: bool,
 }
 
 /// The robots that a settings file declares.

@@ -13,10 +13,10 @@ use urdd_findings::check::{Examined, blank};
 use urdd_findings::code::Code;
 use urdd_findings::finding::Finding;
 use urdd_format::report::{Cause, Kind, NotExamined, Severity, Urdd};
-use urdd_source::arguments::{XacroArgument, declaration};
-use urdd_source::macros::has_no_link;
+use urdd_source::arguments::{XacroArgument, conditions, declaration};
+use urdd_source::macros::{has_no_link, has_no_name, has_open_ends};
 use urdd_source::robots::{Batch, BatchError, Job, find};
-use urdd_source::{SourceError, XacroFault, read_source};
+use urdd_source::{Settings, SourceError, XacroFault, read_source};
 use urdd_xml::Xml;
 
 use crate::examine::rules_to_run;
@@ -80,6 +80,7 @@ pub(crate) struct Sources {
 pub(crate) fn sources(paths: &[PathBuf], settings: &LintSettings) -> Result<Sources, LintError> {
     let mut batch = find(paths, &settings.source)?;
     let mut jobs = std::mem::take(&mut batch.jobs);
+    jobs.append(&mut batch.checked_in);
     // A xacro file is a program: it runs where somebody names it, or asks for xacro.
     let found = jobs.len();
     let is_named = |job: &Job| paths.contains(&job.source) || settings.source.xacro.expand_urdf;
@@ -192,21 +193,56 @@ pub fn undeclared(
     paths: &[PathBuf],
     settings: &LintSettings,
 ) -> Result<Vec<Undeclared>, LintError> {
-    let jobs = sources(paths, settings)?.jobs;
-    within_limits(
+    let mut jobs = sources(paths, settings)?.jobs;
+    jobs.retain(|job| job.arguments.is_empty());
+    let found = within_limits(
         &jobs,
         settings,
         |job| &job.source,
-        |job, settings| match read_source(&job.source, &job.settings(&settings.source)) {
-            Err(SourceError::NeedsArguments { needed, .. }) if job.arguments.is_empty() => {
-                Some(Undeclared {
-                    needed: tried(&job.source, needed, settings),
-                    file: job.source.clone(),
-                })
-            }
-            _ => None,
+        |job, settings| {
+            let (file, source) = (&job.source, job.settings(&settings.source));
+            let all = match read_source(file, &source) {
+                Err(SourceError::NeedsArguments { needed, .. }) => {
+                    vec![tried(file, needed, settings)]
+                }
+                Ok(read) if read.trail.is_some() && has_open_ends(&Xml::new(&read.text)) => {
+                    completed(file, conditions(file, &source), &source)
+                }
+                _ => Vec::new(),
+            };
+            let robot = |needed| Undeclared { file: file.clone(), needed };
+            Some(all.into_iter().map(robot).collect::<Vec<_>>())
         },
-    )
+    )?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+/// Maximum number of values that are tried.
+const MAX_TRIED: usize = 20;
+
+/// Those of the arguments that make a whole tree of a file that is none, each by itself, with the values that do.
+fn completed(
+    file: &Path,
+    mut all: Vec<XacroArgument>,
+    settings: &Settings,
+) -> Vec<Vec<XacroArgument>> {
+    let mut left = MAX_TRIED;
+    for argument in &mut all {
+        let own = argument.default.take();
+        argument.values.retain(|value| own.as_ref() != Some(value));
+        argument.values.truncate(left);
+        left -= argument.values.len();
+        argument.values.retain(|value| {
+            let word = format!("{}:={value}", argument.name);
+            let read = read_source(file, &settings.with_declared(&[word]));
+            read.is_ok_and(|read| {
+                let xml = Xml::new(&read.text);
+                !has_no_link(&xml) && !has_open_ends(&xml) && !has_no_name(&xml)
+            })
+        });
+    }
+    all.retain(|argument| !argument.values.is_empty());
+    all.into_iter().map(|one| vec![one]).collect()
 }
 
 /// The arguments, each with those of its values that make a robot with the first values of the others.

@@ -6,8 +6,11 @@ use std::path::{Path, PathBuf};
 
 use urdd_directory::file_type::{self, FileType};
 use urdd_directory::limits::MAX_SRDF_BYTES;
+use urdd_format::escape;
+use urdd_format::readable::first_of;
 use urdd_source::arguments::arguments;
-use urdd_source::{Files, Trail, read_source};
+use urdd_source::robots::Batch;
+use urdd_source::{Files, Settings, Trail, read_source};
 use urdd_srdf::vocabulary::parts;
 use urdd_xml::Node;
 
@@ -18,9 +21,14 @@ use crate::subject::Subject;
 const MAX_EXPANDED: usize = 10;
 /// Maximum number of SRDFs that are read to find those of a robot.
 const MAX_SRDFS: usize = 100;
-/// How far up from the URDF's folder MoveIt's packages are looked for.
-const LEVELS: usize = 3;
+/// How far up from the URDF's folder its package and those of MoveIt are looked for: from `urdf/NAME` of a package.
+const LEVELS: usize = 4;
+/// The folders of SRDFs, which may have a folder for each robot.
 const FOLDERS: [&str; 2] = ["config", "srdf"];
+/// Maximum number of folders that are looked in.
+const MAX_FOLDERS: usize = 200;
+/// Maximum number of files that are named.
+const MAX_NAMED: usize = 5;
 /// What the name of MoveIt's package of a robot has.
 const MOVEIT: &str = "moveit_config";
 
@@ -171,21 +179,61 @@ fn has_name(text: &str) -> bool {
 
 /// The folders that SRDFs are looked for in, each as seen from the URDF's, and whether it is of its own package.
 fn folders(files: &Files, urdf: &Path) -> Vec<(PathBuf, String, bool)> {
-    let mut folders = vec![(urdf.to_owned(), String::new(), true)];
-    for up in ["", "../"] {
-        let below = FOLDERS.map(|name| format!("{up}{name}/"));
-        folders.extend(below.map(|shown| (urdf.join(&shown), shown, true)));
-    }
+    let mut shown = vec![(String::new(), true)];
+    let mut add = |above: &str, is_own: bool| {
+        for name in FOLDERS {
+            let folder = format!("{above}{name}/");
+            let inside = names(files, &urdf.join(&folder)).into_iter();
+            let inside = inside.map(|name| format!("{folder}{name}/"));
+            let inside = inside.filter(|inside| files.is_dir(&urdf.join(inside)));
+            let inside: Vec<String> = inside.collect();
+            shown.push((folder, is_own));
+            shown.extend(inside.into_iter().map(|inside| (inside, is_own)));
+        }
+    };
     let mut up = String::new();
-    for _ in 0..LEVELS {
-        let packages = names(files, &urdf.join(&up));
-        for package in packages.iter().filter(|name| name.contains(MOVEIT)) {
-            let below = FOLDERS.map(|name| format!("{up}{package}/{name}/"));
-            folders.extend(below.map(|shown| (urdf.join(&shown), shown, false)));
+    for level in 0..LEVELS {
+        add(&up, true);
+        if level > 0 && files.is_file(&urdf.join(format!("{up}package.xml"))) || level > 1 {
+            break;
         }
         up.push_str("../");
     }
-    folders
+    up.clear();
+    for _ in 0..LEVELS {
+        let packages = names(files, &urdf.join(&up)).into_iter();
+        for package in packages.filter(|name| name.contains(MOVEIT)) {
+            add(&format!("{up}{package}/"), false);
+        }
+        up.push_str("../");
+    }
+    shown.truncate(MAX_FOLDERS);
+    shown.into_iter().map(|(shown, is_own)| (urdf.join(&shown), shown, is_own)).collect()
+}
+
+/// What is said of SRDFs in the folders of a run that are of no robot which was examined; `used` are the others.
+pub fn unmatched(batch: &Batch, used: &BTreeSet<PathBuf>, settings: &Settings) -> Option<String> {
+    let files = &settings.files;
+    let makes_one = |path: &&PathBuf| {
+        let bytes = files.read(path, MAX_SRDF_BYTES).unwrap_or_default();
+        FileType::of_made(path) == Some(FileType::Srdf)
+            && has_name(&String::from_utf8_lossy(&bytes))
+    };
+    let made = batch.description.files.iter().map(|file| &file.path);
+    let made = made.filter(|_| settings.xacro.expand_urdf).filter(makes_one);
+    let is_left =
+        |path: &&PathBuf| !files.canonicalize(path).is_ok_and(|path| used.contains(&path));
+    let left: Vec<String> = (batch.srdfs.iter().chain(made).filter(is_left))
+        .map(|path| format!("`{}`", path.display()))
+        .collect();
+    let what = match left.len() {
+        0 => return None,
+        1 => "1 SRDF was matched with no robot".to_owned(),
+        several => format!("{several} SRDFs were matched with no robot"),
+    };
+    let listed = first_of(left.into_iter(), MAX_NAMED);
+    let line = format!("{what} that was examined, so that its names were not compared: {listed}");
+    Some(escape::line(&line).to_string())
 }
 
 /// The names in a folder, in order.

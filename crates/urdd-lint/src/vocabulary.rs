@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use strsim::osa_distance;
+use urdd_format::nearest::closeness;
 use urdd_format::short;
 use urdd_xml::Node;
 use urdd_xml::element::children;
@@ -76,16 +76,13 @@ impl<'a> Names<'a> {
         self.set.contains(name)
     }
 
-    /// What a message says of the name that is meant, if any: nothing where numbers differ, as those of `arm_1` and `arm_2`.
+    /// What a message says of the name that is meant, if any: nothing where numbers or sides differ, as in `arm_1` and `arm_2`.
     pub fn hint(&self, name: &str) -> String {
         let steps = self.all.len() * (1 + name.len().min(LONG).pow(2) / 8);
         let left = self.left.load(Ordering::Relaxed).checked_sub(steps);
         let Some(left) = left.filter(|_| name.len() <= LONG) else { return String::new() };
         self.left.store(left, Ordering::Relaxed);
-        let digits = |name: &str| name.replace(|letter: char| !letter.is_ascii_digit(), " ");
-        let digits_of =
-            |name| digits(name).split_whitespace().map(str::to_owned).collect::<Vec<_>>();
-        match nearest(name, &self.all).filter(|near| digits_of(near) == digits_of(name)) {
+        match nearest(name, &self.all).filter(|near| !closeness(near, name).is_of_another_part) {
             Some(near) => format!(", but there is `{near}`"),
             None => String::new(),
         }
@@ -121,17 +118,17 @@ pub fn near<'a>(name: &str, known: &[&'a str]) -> Option<(&'a str, bool)> {
         return Some((one, true));
     }
     let is_near = |known: &&&str| known.len().abs_diff(lower.len()) < MOST_BYTES;
-    let edits = known.iter().filter(is_near).map(|known| (osa_distance(&lower, known), *known));
-    let edits: Vec<(usize, &str)> = edits.collect();
-    let &(least, best) = edits.iter().min()?;
+    let found = known.iter().filter(is_near).map(|known| (closeness(known, name), *known));
+    let found: Vec<_> = found.collect();
+    let &(least, best) = found.iter().min()?;
     let letters = lower.chars().count().min(best.chars().count());
     let allowed = match letters {
         0..3 => 0,
         3..6 => 1,
         _ => 2,
     };
-    let is_only = edits.iter().filter(|(edits, _)| *edits == least).count() == 1;
-    (least <= allowed).then_some((best, is_only))
+    let is_only = found.iter().filter(|(one, _)| one.edits == least.edits).count() == 1;
+    (least.edits <= allowed).then_some((best, is_only))
 }
 
 /// Something that URDF does not define.

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 use urdd_directory::account::{Account, AccountError};
-use urdd_directory::limits::MAX_MANIFEST_BYTES;
 use urdd_directory::listing::ReadError;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_xml::Node;
@@ -15,16 +14,16 @@ use urdd_xml::element::{attribute, name};
 
 use crate::files::MAX_SOURCE_BYTES;
 use crate::gate::Gate;
+use crate::launched;
 use crate::resolve::FoundMesh;
 use crate::roots::Place;
 use crate::settings::Settings;
-use crate::suggested::{MAX_VALUES, choices, is_given, whole_argument};
+use crate::suggested::{MAX_VALUES, Side, asked, is_given, whole_argument};
 
 pub use crate::error::XacroArgument;
 
 /// Maximum number of names of a folder that are looked at.
 const MAX_NAMES: usize = 1000;
-const MAX_LAUNCHES: usize = 100;
 /// Charged for a path that is looked for.
 const LOOK_UP: usize = 1 << 10;
 /// The elements of xacro itself: all others call macros.
@@ -86,6 +85,13 @@ pub fn needed(file: &Path, settings: &Settings) -> Vec<XacroArgument> {
     all
 }
 
+/// The arguments that conditions of a file ask for, with the values that decide these, without those that are given.
+pub fn conditions(file: &Path, settings: &Settings) -> Vec<XacroArgument> {
+    let mut all = arguments(file, settings).unwrap_or_default();
+    all.retain(|one| one.is_condition && !one.values.is_empty() && !is_given(&one.name, settings));
+    all
+}
+
 /// The lines of a settings file that declare the robots of a file, with each value of these arguments.
 pub fn declaration(file: &str, needed: &[XacroArgument]) -> String {
     let quoted = |text: &str| toml::Value::from(text).to_string();
@@ -111,6 +117,8 @@ struct Found {
     is_of_root: bool,
     /// The texts that use it, by their places in the list of all.
     texts: Vec<usize>,
+    /// The values that conditions ask for.
+    asked: Vec<String>,
 }
 
 /// The texts of a file and of those that it includes.
@@ -123,6 +131,8 @@ struct Texts<'a> {
     aliases: BTreeMap<String, Option<String>>,
     /// Names of included files with properties or parameters, outside of conditions, each with the folder of its file.
     computed: Vec<(String, PathBuf)>,
+    /// The conditions.
+    conditions: Vec<String>,
 }
 
 impl<'a> Texts<'a> {
@@ -133,6 +143,7 @@ impl<'a> Texts<'a> {
             named: Vec::new(),
             aliases: BTreeMap::new(),
             computed: Vec::new(),
+            conditions: Vec::new(),
         }
     }
 
@@ -157,6 +168,19 @@ impl<'a> Texts<'a> {
                 found.texts.push(self.named.len());
             }
             self.named.push((whole, folder));
+        }
+        for condition in std::mem::take(&mut self.conditions) {
+            for (side, value) in asked(&condition) {
+                let name = match side {
+                    Side::Argument(name) => Some(name),
+                    Side::Property(name) => self.aliases.get(name).and_then(Option::as_deref),
+                };
+                let Some(found) = name.and_then(|name| self.found.get_mut(name)) else { continue };
+                if found.asked.len() < MAX_VALUES && !found.asked.iter().any(|one| one == value) {
+                    self.gate.account().charge(value.len() + size_of::<String>())?;
+                    found.asked.push(value.to_owned());
+                }
+            }
         }
         Ok(())
     }
@@ -188,6 +212,11 @@ impl<'a> Texts<'a> {
                         self.computed.push((file.to_owned(), folder.to_owned()));
                     }
                 }
+                ("xacro:if" | "xacro:unless", ..) => {
+                    let condition = value("value").unwrap_or_default();
+                    self.gate.account().charge(condition.len() + size_of::<String>())?;
+                    self.conditions.push(condition.to_owned());
+                }
                 ("xacro:property", Some(name), _) => {
                     self.alias(name, value("value").unwrap_or_default())?;
                 }
@@ -218,7 +247,7 @@ impl<'a> Texts<'a> {
     }
 
     fn arguments(self, file: &Path) -> Result<Vec<XacroArgument>, ArgumentsError> {
-        let listed = self.choices(file);
+        let listed = launched::values(file, self.gate, |name| self.found.contains_key(name));
         let mut all = Vec::new();
         for (name, found) in &self.found {
             let mut values = self.values(name, found)?;
@@ -232,7 +261,7 @@ impl<'a> Texts<'a> {
             let is_needed =
                 found.is_of_root || found.default.is_none() || literal.is_some_and(has_no_files);
             if values.is_empty() {
-                values = listed.get(name).cloned().unwrap_or_default();
+                values = listed.get(name).unwrap_or(&found.asked).clone();
             }
             if values.is_empty() && found.is_of_root {
                 let stem = file.file_name().unwrap_or_default().to_string_lossy();
@@ -240,7 +269,15 @@ impl<'a> Texts<'a> {
                 values.push(literal.cloned().unwrap_or_else(stem));
             }
             let (name, default) = (name.clone(), found.default.clone());
-            all.push(XacroArgument { name, default, values, is_needed, at: found.at });
+            let is_condition = !found.asked.is_empty();
+            all.push(XacroArgument {
+                name,
+                default,
+                values,
+                is_condition,
+                is_needed,
+                at: found.at,
+            });
         }
         Ok(all)
     }
@@ -330,30 +367,6 @@ impl<'a> Texts<'a> {
         let manifest = format!("package://{}/package.xml", package.trim());
         let manifest = self.gate.find_from(&manifest, folder).ok()?;
         Some((manifest.file.parent()?.to_owned(), rest))
-    }
-
-    /// The choices in the launch files of the file's package.
-    fn choices(&self, file: &Path) -> BTreeMap<String, Vec<String>> {
-        let files = self.gate.files();
-        let mut above = file.ancestors().skip(1);
-        let Some(package) = above.find(|above| files.is_file(&above.join("package.xml"))) else {
-            return BTreeMap::new();
-        };
-        let folder = package.join("launch");
-        let mut names = files.names(&folder);
-        names.retain(|name| name.to_string_lossy().ends_with(".py"));
-        let mut all = BTreeMap::new();
-        for name in names.into_iter().take(MAX_LAUNCHES) {
-            let Ok(found) = self.gate.at(&folder.join(name)) else { continue };
-            let text = self.gate.bytes(&found, MAX_MANIFEST_BYTES).unwrap_or_default();
-            for (name, values) in choices(&String::from_utf8_lossy(&text)) {
-                let is_known = self.found.contains_key(&name) && values.len() <= MAX_VALUES;
-                if is_known && !values.is_empty() {
-                    all.entry(name).or_insert(values);
-                }
-            }
-        }
-        all
     }
 }
 

@@ -151,8 +151,9 @@ impl Texts<'_> {
             let text = self.read(&path).map(|file| {
                 let contents = file.macros.iter().map(|one| &one.content).chain([&file.content]);
                 let names: HashSet<&String> = contents.flat_map(|one| &one.includes).collect();
-                let found =
-                    names.into_iter().map(|name| (name.clone(), self.included(name, &path)));
+                let found = names
+                    .into_iter()
+                    .map(|name| (name.clone(), self.included(&file.by_default(name), &path)));
                 let includes: BTreeMap<String, Option<PathBuf>> = found.collect();
                 waiting.extend(includes.values().flatten().cloned());
                 Text { file, includes }

@@ -236,9 +236,11 @@ pub struct XacroArgument {
     pub name: String,
     /// Its default as it is written.
     pub default: Option<String>,
-    /// Values for which the package has files, else those that a launch file lists; or those for which the file defines a
-    /// property that is missing.
+    /// Values for which the package has files, else those that launch files have, else those that conditions ask for; or those
+    /// for which the file defines a property that is missing.
     pub values: Vec<String>,
+    /// Whether a condition (`xacro:if`, `xacro:unless`) asks for it.
+    pub is_condition: bool,
     /// Whether a value has to be given: there is no default, the package has no files for it, a property is missing with it,
     /// or xacro does not know it yet.
     pub is_needed: bool,

@@ -6,6 +6,7 @@
 
 pub mod arguments;
 pub mod beside;
+pub mod checked_in;
 mod decode;
 pub mod described;
 pub mod dropped;
@@ -18,6 +19,7 @@ pub mod gate;
 mod inspect;
 mod installed;
 mod job_names;
+mod launched;
 mod load;
 pub mod loops;
 pub mod macros;

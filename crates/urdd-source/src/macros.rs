@@ -1,6 +1,6 @@
 //! What a xacro file has, as its text says it. Nothing is expanded.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 use urdd_directory::position::LineIndex;
 use urdd_srdf::vocabulary::is_of_robot;
@@ -9,6 +9,10 @@ use urdd_xml::{Document, Node, Xml, XmlError};
 
 /// The prefix of elements that xacro reads.
 const PREFIX: &str = "xacro:";
+
+/// How often defaults of defaults are looked up, and the maximum length of what they make, bytes.
+const MAX_ROUNDS: usize = 4;
+const MAX_NAME: usize = 4096;
 
 /// What a xacro file has.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -21,6 +25,8 @@ pub struct MacroFile {
     pub content: Content,
     /// Whether it defines properties.
     pub has_properties: bool,
+    /// What its arguments and properties are by default, by what is inside of `$(...)` and `${...}`: `arg hand`, `hand`.
+    pub defaults: BTreeMap<String, String>,
     /// The macros that it defines.
     pub macros: Vec<Macro>,
 }
@@ -128,6 +134,50 @@ impl MacroFile {
         MacroFile { root, content, ..MacroFile::default() }
     }
 
+    fn add_default(&mut self, name: Option<String>, value: Option<String>) {
+        if let (Some(name), Some(value)) = (name, value) {
+            self.defaults.entry(name).or_insert(value);
+        }
+    }
+
+    /// The name of an included file, with the defaults of what it is computed from: also of `$(optenv NAME DEFAULT)`.
+    pub fn by_default(&self, name: &str) -> String {
+        let mut name = name.to_owned();
+        for _ in 0..MAX_ROUNDS {
+            let more = self.substituted(&name);
+            if more == name || more.len() > MAX_NAME {
+                break;
+            }
+            name = more;
+        }
+        name
+    }
+
+    fn substituted(&self, text: &str) -> String {
+        let mut parts = text.split('$');
+        let mut whole = parts.next().unwrap_or_default().to_owned();
+        for part in parts {
+            let ends = [('(', ')'), ('{', '}')].into_iter();
+            let inside = |(open, close)| part.strip_prefix(open)?.split_once(close);
+            let Some((inside, rest)) = ends.filter_map(inside).next() else {
+                whole += &format!("${part}");
+                continue;
+            };
+            let known = match inside.trim().split_once(' ') {
+                Some(("optenv", rest)) => {
+                    Some(rest.trim().split_once(' ').map_or("", |(_, value)| value.trim()))
+                }
+                None if inside == "dirname" => Some("."),
+                _ => self.defaults.get(inside.trim()).map(String::as_str),
+            };
+            match known {
+                Some(known) => whole += &format!("{known}{rest}"),
+                None => whole += &format!("${part}"),
+            }
+        }
+        whole
+    }
+
     /// The content of an element. What it declares goes into the lists, wherever that is.
     fn content_of(&mut self, parent: Node, lines: &LineIndex) -> Content {
         let mut content = Content::default();
@@ -154,8 +204,15 @@ impl MacroFile {
                         continue;
                     }
                     "include" => content.includes.extend(attribute("filename")),
-                    "property" => self.has_properties = true,
-                    "arg" | "if" | "unless" | "insert_block" | "element" | "attribute" => {}
+                    "property" => {
+                        self.has_properties = true;
+                        self.add_default(attribute("name"), attribute("value"));
+                    }
+                    "arg" => {
+                        let name = attribute("name").map(|name| format!("arg {name}"));
+                        self.add_default(name, attribute("default"));
+                    }
+                    "if" | "unless" | "insert_block" | "element" | "attribute" => {}
                     called => {
                         let named = attribute("macro").filter(|_| called == "call");
                         let name = Some(named.unwrap_or_else(|| called.to_owned()));

@@ -14,6 +14,7 @@ use urdd_format::escape;
 use urdd_format::readable::first_of;
 use urdd_format::short::Short;
 
+use crate::checked_in;
 use crate::described::{Description, FileKind, Reason, describe};
 use crate::error::SourceError;
 use crate::fault::Fault;
@@ -102,6 +103,10 @@ pub struct Batch {
     pub packages: BTreeMap<String, Vec<PathBuf>>,
     /// The files that a person names or declares, with symbolic links resolved: each is to be a robot.
     pub wanted: BTreeSet<PathBuf>,
+    /// The SRDFs in the folders.
+    pub srdfs: Vec<PathBuf>,
+    /// The xacro files with a `.urdf` of their name beside them, which is the robot of a batch; nobody names or declares these.
+    pub checked_in: Vec<Job>,
 }
 
 const MAX_NAMED: usize = 5;
@@ -112,22 +117,23 @@ impl Batch {
         !self.wanted.contains(&resolved(source))
     }
 
-    /// Whether an error says that a xacro file in a folder is a part of robots after all: its expansion has no link; or
-    /// another file includes it, and it has no expansion by itself, or one that is no whole tree.
+    /// Whether an error says that a file in a folder is a part of robots after all: the expansion of a xacro file has no link;
+    /// or another file includes it, and it has no link, no name, no expansion by itself, or one that is no whole tree.
     pub fn is_part(&self, source: &Path, error: &SourceError) -> bool {
         let is_xacro = FileType::Xacro.is_of(source);
+        let is_included = self.description.may_be_part(source);
+        let is_of_part = |fault: &Fault| match fault {
+            Fault::NoLinks | Fault::OnlyMacros | Fault::IsSrdf => is_xacro || is_included,
+            Fault::MissingAttribute { element: "robot", .. } => is_included,
+            Fault::UnknownLink { .. } | Fault::ManyRoots { .. } => is_xacro && is_included,
+            _ => false,
+        };
         self.may_drop(source)
-            && is_xacro
             && match error {
-                SourceError::Refused { faults, .. } => faults.iter().any(|one| {
-                    matches!(one.fault, Fault::NoLinks | Fault::OnlyMacros | Fault::IsSrdf)
-                        || self.description.may_be_part(source)
-                            && matches!(
-                                one.fault,
-                                Fault::UnknownLink { .. } | Fault::ManyRoots { .. }
-                            )
-                }),
-                SourceError::Xacro { .. } => self.description.may_be_part(source),
+                SourceError::Refused { faults, .. } => {
+                    faults.iter().any(|one| is_of_part(&one.fault))
+                }
+                SourceError::Xacro { .. } => is_included,
                 _ => false,
             }
     }
@@ -183,6 +189,7 @@ impl Batch {
 /// If a path does not exist, or a folder cannot be searched or has no description. There may be parts of robots alone.
 pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError> {
     let (mut sources, mut listed, mut batch) = (Vec::new(), Vec::new(), Batch::default());
+    let mut beside = Vec::new();
     let facts = FolderFacts::new(&settings.files);
     let settings = &Settings { facts: Some(facts.clone()), ..settings.clone() };
     batch.wanted.extend(settings.robots.iter().map(|robot| resolved(&robot.source)));
@@ -214,6 +221,9 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
         }
         sources.extend(found.urdfs.iter().cloned());
         listed.append(&mut found.urdfs);
+        listed.extend(found.checked_in.iter().cloned());
+        beside.append(&mut found.checked_in);
+        batch.srdfs.append(&mut found.srdfs);
         for (name, folder) in found.packages {
             batch.packages.entry(name).or_default().push(folder);
         }
@@ -233,6 +243,7 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
         let is_robot = !passed.contains(path) || batch.wanted.contains(&place);
         seen.insert(place) && is_robot
     });
+    beside.retain(|path| !passed.contains(path) && seen.insert(resolved(path)));
     let named_paths: BTreeSet<&PathBuf> = paths.iter().collect();
     let mut declared: HashMap<PathBuf, Vec<&Declared>> = HashMap::new();
     for robot in settings.robots.iter() {
@@ -251,9 +262,10 @@ pub fn find(paths: &[PathBuf], settings: &Settings) -> Result<Batch, BatchError>
         }
     });
     batch.jobs = named(robots.collect());
+    batch.checked_in = named(beside.into_iter().map(Declared::from).collect());
     let packages = packages.into_iter().map(|(name, folder)| (name, resolved(&folder)));
     let packages: Arc<BTreeMap<String, PathBuf>> = Arc::new(packages.collect());
-    for job in &mut batch.jobs {
+    for job in batch.jobs.iter_mut().chain(&mut batch.checked_in) {
         (job.packages, job.facts) = (Arc::clone(&packages), Some(facts.clone()));
     }
     Ok(batch)
@@ -300,6 +312,9 @@ pub(crate) fn named(robots: Vec<Declared>) -> Vec<Job> {
 struct Found {
     /// URDFs and xacro files.
     urdfs: Vec<PathBuf>,
+    /// Xacro files with a `.urdf` of their name beside them.
+    checked_in: Vec<PathBuf>,
+    srdfs: Vec<PathBuf>,
     /// Packages, by name.
     packages: Vec<(String, PathBuf)>,
     /// What may be of another format.
@@ -362,19 +377,16 @@ fn search(
         }
         match FileType::of(&path) {
             Some(FileType::Urdf) => found.urdfs.push(path),
-            Some(FileType::Xacro) if !expansion(&path).is_file() => found.urdfs.push(path),
+            Some(FileType::Xacro) if checked_in::urdf_of(&path).is_file() => {
+                found.checked_in.push(path)
+            }
+            Some(FileType::Xacro) => found.urdfs.push(path),
             Some(FileType::Xml | FileType::Sdf | FileType::Mjcf | FileType::Usd) => {
                 found.others.push(path);
             }
-            Some(FileType::Xacro | FileType::Srdf | FileType::Archive | FileType::Document) => {}
-            None => {}
+            Some(FileType::Srdf) => found.srdfs.push(path),
+            Some(FileType::Archive | FileType::Document) | None => {}
         }
     }
     Ok(())
-}
-
-/// The URDF that a xacro file is expanded to by hand.
-fn expansion(xacro: &Path) -> PathBuf {
-    let stem = xacro.with_extension("");
-    if FileType::Urdf.is_of(&stem) { stem } else { stem.with_extension("urdf") }
 }

@@ -1,5 +1,4 @@
-//! Values that texts suggest for arguments: those for which `xacro:if` asks, and the choices that launch files in Python give.
-//! Nothing is run.
+//! Values for which the conditions of a xacro file ask: `xacro:if`, `xacro:unless`.
 
 use std::collections::HashMap;
 
@@ -7,7 +6,6 @@ use urdd_directory::position::LineIndex;
 use urdd_xml::element::{attribute, name};
 
 use crate::error::XacroArgument;
-use crate::python_tokens::{Token, tokens};
 use crate::settings::Settings;
 
 /// Maximum number of values that are suggested.
@@ -43,6 +41,7 @@ pub(crate) fn deciding(text: &str, property: &str, settings: &Settings) -> Vec<X
                     name: own.to_owned(),
                     default: value("default").map(str::to_owned),
                     values: Vec::new(),
+                    is_condition: true,
                     is_needed: true,
                     at: Some(lines.position(node.range().start)),
                 });
@@ -80,12 +79,34 @@ pub(crate) fn deciding(text: &str, property: &str, settings: &Settings) -> Vec<X
 
 /// What a condition compares.
 #[derive(Debug, PartialEq)]
-enum Side<'t> {
+pub(crate) enum Side<'t> {
+    /// The argument of this name.
     Argument(&'t str),
+    /// A property, or a parameter of a macro.
     Property(&'t str),
 }
 
-fn is_of_name(c: char) -> bool {
+/// What a condition asks for, each with a value that decides it: texts that it compares with, or `true` and `false`.
+pub(crate) fn asked(condition: &str) -> Vec<(Side<'_>, &str)> {
+    let compared = compared(condition);
+    if !compared.is_empty() {
+        return compared;
+    }
+    let condition = condition.trim();
+    let inside = condition.strip_prefix("${").and_then(|inside| inside.strip_suffix('}'));
+    let inside = inside.unwrap_or(condition).trim();
+    let inside = inside.strip_prefix("not ").unwrap_or(inside).trim();
+    let argument = || whole_argument(inside).map(Side::Argument);
+    let is_name =
+        !inside.is_empty() && inside.chars().all(is_of_name) && condition.starts_with('$');
+    let side = || match argument() {
+        None if is_name => Some(Side::Property(inside)),
+        found => found,
+    };
+    ["true", "false"].into_iter().filter_map(|value| Some((side()?, value))).collect()
+}
+
+pub(crate) fn is_of_name(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
@@ -118,43 +139,6 @@ fn literal(text: &str) -> Option<&str> {
     let (rest, quote) = rest.or_else(|| text.strip_prefix('"').map(|rest| (rest, '"')))?;
     let (literal, _) = rest.split_once(quote)?;
     Some(literal).filter(|literal| !literal.is_empty())
-}
-
-/// The call that declares an argument.
-const DECLARES: &str = "DeclareLaunchArgument(";
-
-/// The arguments with `choices=[...]` of literals, and these.
-pub fn choices(text: &str) -> impl Iterator<Item = (String, Vec<String>)> {
-    // A call ends where the next begins.
-    text.split(DECLARES).skip(1).filter_map(of_call)
-}
-
-/// The argument of a call that begins here, and its choices.
-fn of_call(text: &str) -> Option<(String, Vec<String>)> {
-    let tokens = tokens(text);
-    let first = match (tokens.first()?, tokens.get(1), tokens.get(2)) {
-        (Token::Text(name), ..) => name,
-        (Token::Word(word), Some(Token::Mark('=')), Some(Token::Text(name))) if word == "name" => {
-            name
-        }
-        _ => return None,
-    };
-    let begin = [Token::Word("choices".to_owned()), Token::Mark('='), Token::Mark('[')];
-    let at = tokens.windows(begin.len()).position(|window| *window == begin)?;
-    let mut values = Vec::new();
-    for pair in tokens[at + begin.len()..].chunks(2) {
-        match pair {
-            [Token::Mark(']'), ..] => break,
-            [Token::Text(value), Token::Mark(end @ (',' | ']'))] => {
-                values.push(value.clone());
-                if *end == ']' {
-                    break;
-                }
-            }
-            _ => return None,
-        }
-    }
-    Some((first.clone(), values))
 }
 
 #[cfg(test)]

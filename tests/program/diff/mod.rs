@@ -4,3 +4,5 @@ mod bad_input;
 mod command;
 #[cfg(unix)]
 mod expanded;
+#[cfg(unix)]
+mod folders;

@@ -3,10 +3,13 @@ use urdd_format::readable::number as shown;
 use super::prelude::*;
 
 declare_lint! {
-    /// The effort or velocity of a joint's limit is negative, or one of them is 0.
+    /// The effort or velocity of a joint's limit is negative, or one of them is 0; or a joint slides at 20 m/s or more.
     ///
     /// Programs refuse a negative one, on joints that follow another one too. With effort 0, Gazebo, ros2_control and whoever asks PyBullet for the limit apply no force. With velocity 0, MoveIt's time
     /// parameterization fails. MuJoCo takes 0 as "no limit".
+    ///
+    /// A prismatic joint of 20 m/s or more has its velocity in millimetres a second, or too large; 100, 500, 999 and such stand for
+    /// "unlimited".
     ///
     /// Write what the motor can do, in N or N m, and in m/s or rad/s. Where both are 0, SRC009 says so.
     LNT013 "absurd-velocity-or-effort", Warning, WrongMotion, since "1.1.0" => absurd_velocity_or_effort;
@@ -23,6 +26,9 @@ declare_lint! {
     ///
     /// URDF's angles are radians, and every program takes them as such: with `upper="90"` the joint turns 14 times around
     /// before it stops. Planners and random sampling then use poses that the robot cannot take.
+    ///
+    /// So are velocities: with `velocity="180"` a planner takes 29 turns a second for possible. One from 75 rad/s is reported, but
+    /// not 100, 500, 999 and such, which stand for "unlimited".
     ///
     /// Divide by 57.2958 (180/π). A joint without limits is `continuous`.
     LNT010 "limits-look-like-degrees", Warning, WrongMotion, since "1.1.0" => limits_look_like_degrees;
@@ -71,6 +77,14 @@ fn absurd_velocity_or_effort(urdf: &Subject, findings: &mut Findings) -> Option<
             let message = format!("`{name}` {wrong}; write what the motor can do");
             urdf.at_attribute(limit, name, message).report(findings);
         }
+        let velocity = number(limit, "velocity").filter(|one| is_too_fast(*one, FAST_SLIDE));
+        if let (Some("prismatic"), Some(velocity)) = (joint.attribute("type"), velocity) {
+            let message = format!(
+                "`velocity` is {velocity} m/s; if it is in millimetres a second, write velocity=\"{}\"",
+                shown(velocity / 1000.0, 5)
+            );
+            urdf.at_attribute(limit, "velocity", message).report(findings);
+        }
     }
     Some(())
 }
@@ -101,22 +115,49 @@ const TO: f64 = 720.0;
 /// Bounds on both sides that mean "unlimited".
 const UNLIMITED: [f64; 3] = [50.0, 100.0, 500.0];
 
+/// Velocities that are degrees or millimetres per second. Those of 1,181 URDFs are below, or stand for "unlimited".
+const FAST_TURN: f64 = 75.0;
+const FAST_SLIDE: f64 = 20.0;
+const FASTEST: f64 = 7200.0;
+
+/// Whether a velocity is above what motors do, and does not stand for "unlimited", as 100, 500 and 999 do.
+fn is_too_fast(velocity: f64, from: f64) -> bool {
+    let is_round = velocity % 100.0 == 0.0 || (velocity + 1.0) % 1000.0 == 0.0;
+    (from..=FASTEST).contains(&velocity) && !is_round
+}
+
 fn limits_look_like_degrees(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for (_, limit) in urdf.limits_of(&["revolute"]) {
-        let (Some(lower), Some(upper)) = (number(limit, "lower"), number(limit, "upper")) else {
-            continue;
+        let ends = number(limit, "lower").zip(number(limit, "upper"));
+        let ends = ends.filter(|(lower, upper)| {
+            let size = lower.abs().max(upper.abs());
+            let is_unlimited = *lower == -*upper && UNLIMITED.contains(&size);
+            (FROM..=TO).contains(&size) && !is_unlimited
+        });
+        let velocity = number(limit, "velocity").filter(|one| is_too_fast(*one, FAST_TURN));
+        let radians =
+            |name: &str, value: f64| format!("{name}=\"{}\"", shown(value.to_radians(), 5));
+        let turn = velocity.map(|velocity| radians("velocity", velocity));
+        let finding = match (ends, turn) {
+            (Some((lower, upper)), turn) => {
+                let mut written = vec![radians("lower", lower), radians("upper", upper)];
+                written.extend(turn);
+                let message = format!(
+                    "the limits look like degrees, and are taken as radians; write {}",
+                    written.join(" ")
+                );
+                urdf.at(limit, message).actual(format!("{lower} to {upper}"))
+            }
+            (None, Some(turn)) => {
+                let message = format!(
+                    "the velocity looks like degrees a second, and is taken as radians; write {turn}"
+                );
+                let actual = velocity.unwrap_or_default();
+                urdf.at_attribute(limit, "velocity", message).actual(format!("{actual} rad/s"))
+            }
+            (None, None) => continue,
         };
-        let size = lower.abs().max(upper.abs());
-        let is_unlimited = lower == -upper && UNLIMITED.contains(&size);
-        if !(FROM..=TO).contains(&size) || is_unlimited {
-            continue;
-        }
-        let radians = [lower, upper].map(|angle| shown(angle.to_radians(), 5));
-        let message = format!(
-            "the limits look like degrees, and are taken as radians; write lower=\"{}\" upper=\"{}\"",
-            radians[0], radians[1]
-        );
-        urdf.at(limit, message).actual(format!("{lower} to {upper}")).report(findings);
+        finding.report(findings);
     }
     Some(())
 }

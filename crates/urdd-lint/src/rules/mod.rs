@@ -1,5 +1,6 @@
 //! LNT: what is odd about a URDF, rules about one thing in a file.
 
+mod checked_in_urdf_is_stale;
 mod default_configuration;
 mod files;
 mod frames;
@@ -16,6 +17,6 @@ mod whole_file;
 use prelude::rules;
 
 rules! {
-    default_configuration, files, frames, limits, mass_beyond_shapes, masses, names, shapes,
-    srdfs, whole_file,
+    checked_in_urdf_is_stale, default_configuration, files, frames, limits, mass_beyond_shapes,
+    masses, names, shapes, srdfs, whole_file,
 }

@@ -95,6 +95,9 @@ declare_lint! {
 
     /// A mesh is a hundred times as long as the robot's joints are apart, or shorter than a millimetre.
     ///
+    /// One that is short is a warning where most meshes of the robot are longer, and no finding on a link without `<inertial>`, where
+    /// it may mark a frame.
+    ///
     /// It is in millimetres, or was scaled to metres twice. RViz shows nothing, because the camera is inside of the mesh; planners see
     /// everything in collision.
     ///
@@ -355,20 +358,38 @@ fn mesh_in_millimetres(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         return Some(());
     }
     let longest = urdf.longest_part(findings)?;
-    each(urdf, findings, |_, mesh| {
-        let scale = Vector3::from(mesh.scale);
+    let meshes = urdf.read_meshes(findings)?;
+    let size = |mesh: &NamedMesh| {
         // One mesh may have very many scales.
-        let size = mesh.facts.ok()?.lengths.component_mul(&scale).norm();
+        let lengths = mesh.facts.ok()?.lengths;
+        Some(lengths.component_mul(&Vector3::from(mesh.scale)).norm())
+    };
+    let sizes: Vec<f64> = meshes.iter().filter_map(|(_, mesh)| size(mesh)).collect();
+    let are_most = 2 * sizes.iter().filter(|size| **size < SHORTEST).count() > sizes.len();
+    for (node, mesh) in &meshes {
+        let Some(size) = size(mesh) else { continue };
         let largest = mesh.scale.iter().fold(0.0, |most: f64, one| most.max(one.abs()));
         let (what, advice) = if size > longest {
             let unit = "if it is in millimetres, write scale=\"0.001 0.001 0.001\"";
             ("far more than the robot", if largest > 1.0 { REMOVE } else { unit })
-        } else if size < SHORTEST {
+        } else if size < SHORTEST && (are_most || has_mass(*node)) {
             let unit = "export it in metres, or write the scale that makes it so";
             ("less than a millimetre", if largest < 1.0 { REMOVE } else { unit })
         } else {
-            return None;
+            continue;
         };
-        Some(format!("the mesh is {} long, {what}; {advice}", metres(size)))
-    })
+        let message = format!("the mesh is {} long, {what}; {advice}", metres(size));
+        let is_odd = size < SHORTEST && !are_most;
+        let severity = is_odd.then_some(Severity::Warning);
+        let finding = urdf.at_attribute(*node, "filename", message);
+        Finding { severity, ..finding }.report(findings);
+    }
+    Some(())
+}
+
+/// Whether the link around an element has a mass: one without is a frame, which may have a marker.
+fn has_mass(node: Node) -> bool {
+    let link = node.ancestors().find(|above| above.tag_name().name() == "link");
+    let inertial = link.and_then(|link| link.children().find(|one| one.has_tag_name("inertial")));
+    inertial.is_some()
 }

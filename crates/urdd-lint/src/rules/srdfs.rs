@@ -27,9 +27,10 @@ declare_lint! {
     /// MoveIt says `Link 'X' is not known to URDF`, and goes on without the line: a pair of links is checked for collisions
     /// although it should not be, or a group has no joints.
     ///
-    /// Correct the name in the SRDF. SRDFs are looked for beside the URDF, in folders called `srdf` and `config` there and one level
-    /// up, and in those of packages called `…moveit_config` beside the robot's. Those whose files have the URDF's name are its own;
-    /// else the only one of a robot of this name, or the only one there is, if most of its names are those of the URDF.
+    /// Correct the name in the SRDF. SRDFs are looked for beside the URDF, in folders called `srdf` and `config` there and up to its
+    /// package, in the folders inside of these (`config/arm/arm.srdf`), and in those of packages called `…moveit_config` beside the
+    /// robot's. Those whose files have the URDF's name are its own; else the only one of a robot of this name, or the only one there
+    /// is, if most of its names are those of the URDF. An SRDF in a folder that is of no robot there is named below the report.
     LNT045 "srdf-unknown-name", Warning, Format, since "1.1.0" => srdf_unknown_name
 }
 

@@ -60,9 +60,13 @@ fn found(rule: &LintRule, file: &Path) -> Vec<(String, String)> {
     findings.map(|finding| (finding.code, finding.message)).collect()
 }
 
+/// Rules that need the program xacro: `tests/program/checked_in.rs` has one in its place.
+const OF_XACRO: [Code; 1] = [Code::LNT067];
+
 #[test]
 fn a_rule_alone_finds_its_fault() {
-    for rule in rules::all() {
+    let is_plain = |rule: &&LintRule| !OF_XACRO.contains(&rule.description.code);
+    for rule in rules::all().into_iter().filter(is_plain) {
         let code = rule.description.code;
         for file in cases(code, "invalid") {
             let found = found(rule, &file);

@@ -22,6 +22,7 @@ mod messages;
 mod parses;
 mod primitives;
 mod programs;
+mod rounding;
 mod rules_mass_beyond_shapes;
 mod severities;
 mod skips;

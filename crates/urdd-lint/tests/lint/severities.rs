@@ -61,3 +61,23 @@ fn what_programs_refuse_whole_is_an_error() {
         assert_eq!(severity(case, old, new), expected, "{case}, {new}");
     }
 }
+
+#[test]
+fn a_single_tiny_mesh_is_a_warning_and_several_are_an_error() {
+    let text = include_str!("../cases/LNT022/invalid_tiny.urdf");
+    let mesh = include_bytes!("../cases/LNT022/big.stl");
+    for (text, severity) in [
+        (text.to_owned(), Severity::Warning),
+        (text.replace("0.001 0.001 0.001", "0.000001 0.000001 0.000001"), Severity::Error),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("big.stl"), mesh).expect("written");
+        let file = folder.path().join("arm.urdf");
+        std::fs::write(&file, text).expect("written");
+        let run = super::linted(&file, &LintSettings::default());
+        let findings = run.report.urdds.into_iter().flat_map(|urdf| urdf.findings);
+        let found: Vec<Severity> =
+            findings.filter(|one| one.code == "LNT022").map(|one| one.severity).collect();
+        assert!(!found.is_empty() && found.iter().all(|one| *one == severity), "{found:?}");
+    }
+}

@@ -43,6 +43,9 @@ fn srdfs_are_found_where_moveit_puts_them() {
         ("arm_description/config/arm.srdf", "../config/arm.srdf"),
         ("arm_description/srdf/arm.srdf", "../srdf/arm.srdf"),
         ("arm_moveit_config/config/arm.srdf", "../../arm_moveit_config/config/arm.srdf"),
+        // A folder for each robot.
+        ("arm_description/config/arm/arm.srdf", "../config/arm/arm.srdf"),
+        ("arm_moveit_config/config/arm/arm.srdf", "../../arm_moveit_config/config/arm/arm.srdf"),
         // Another name: the only one, and of this robot.
         ("arm_description/config/all.srdf", "../config/all.srdf"),
         ("arm_moveit_config/config/all.srdf", "../../arm_moveit_config/config/all.srdf"),
@@ -51,6 +54,42 @@ fn srdfs_are_found_where_moveit_puts_them() {
     }
     let xacro = [("arm_moveit_config/config/arm.srdf", &*srdf("arm"))];
     assert_eq!(found("arm_description/urdf/arm.robot.urdf", &xacro).len(), 1);
+}
+
+#[test]
+fn srdfs_of_a_robot_in_a_folder_of_its_own_are_those_of_its_package() {
+    let urdf = "arm_description/urdf/arm/arm.urdf";
+    let package =
+        ("arm_description/package.xml", "<package><name>arm_description</name></package>");
+    for (file, seen) in [
+        ("arm_description/config/arm.srdf", "../../config/arm.srdf"),
+        ("arm_description/config/arm/arm.srdf", "../../config/arm/arm.srdf"),
+        ("arm_moveit_config/config/arm/arm.srdf", "../../../arm_moveit_config/config/arm/arm.srdf"),
+    ] {
+        assert_eq!(found(urdf, &[(file, &srdf("arm")), package]), [seen], "{file}");
+    }
+    // Outside of its package.
+    let outside = [
+        ("arm_description/urdf/package.xml", "<package><name>arm</name></package>"),
+        ("arm_description/config/arm.srdf", &*srdf("arm")),
+    ];
+    assert_eq!(found(urdf, &outside), [""; 0]);
+}
+
+#[test]
+fn an_srdf_that_is_of_no_robot_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text) in
+        [("urdf/arm.urdf", ARM), ("config/arm.srdf", &*srdf("arm")), ("config/leg.srdf", OTHER)]
+    {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        fs::write(path, text).expect("written");
+    }
+    let run = linted(folder.path(), &LintSettings::default());
+    let [aside] = &run.asides[..] else { panic!("{:?}", run.asides) };
+    assert!(aside.starts_with("1 SRDF was matched with no robot that was examined"), "{aside}");
+    assert!(aside.contains("leg.srdf") && !aside.contains("arm.srdf"), "{aside}");
 }
 
 #[test]

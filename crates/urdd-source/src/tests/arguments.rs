@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use crate::Files;
 use crate::arguments::{ArgumentsError, XacroArgument, arguments, needed};
+use crate::launched::{by_python, by_xml};
 use crate::settings::Settings;
-use crate::suggested::choices;
 
 fn write(root: &Path, files: &[(&str, &str)]) {
     for (path, text) in files {
@@ -133,7 +133,10 @@ fn a_file_that_is_no_xml_is_said() {
 
 #[test]
 fn choices_are_literal_lists_alone() {
-    let found = |text: &str| choices(text).collect::<Vec<_>>();
+    let found = |text: &str| {
+        let all = by_python(text).filter(|one| !one.choices.is_empty());
+        all.map(|one| (one.name, one.choices)).collect::<Vec<_>>()
+    };
     let one = |name: &str, values: &[&str]| {
         vec![(name.to_owned(), values.iter().map(|&value| value.to_owned()).collect::<Vec<_>>())]
     };
@@ -153,6 +156,43 @@ fn choices_are_literal_lists_alone() {
     ] {
         assert_eq!(found(text), [], "{text}");
     }
+}
+
+#[test]
+fn launch_files_say_what_arguments_are() {
+    let python = "DeclareLaunchArgument('a', default_value='x', description='y'), DeclareLaunchArgument('b', default_value=f('x'))";
+    let values: Vec<_> = by_python(python).map(|one| (one.name, one.value)).collect();
+    assert_eq!(values, [("a".to_owned(), Some("x".to_owned())), ("b".to_owned(), None)]);
+    let xml = "<launch><arg name='a' default='x'/><arg name='b' default='$(env B)'/><arg name='c'/>\
+        <param name='d' command='xacro arm.xacro e:=y f:=$(arg a)'/><include file='g'><arg name='h' value='z'/></include></launch>";
+    let values: Vec<_> = by_xml(xml).into_iter().map(|one| (one.name, one.value)).collect();
+    let one = |name: &str, value: &str| (name.to_owned(), Some(value.to_owned()));
+    assert_eq!(values, [one("a", "x"), one("e", "y"), one("h", "z")]);
+    assert!(by_xml("<launch").is_empty());
+}
+
+#[test]
+fn what_conditions_ask_for_is_a_value() {
+    let main = robot(
+        "<xacro:arg name=\"hand\" default=\"false\"/><xacro:arg name=\"tool\" default=\"none\"/><xacro:property name=\"with\" value=\"$(arg sim)\"/>\
+         <xacro:if value=\"$(arg hand)\"/><xacro:unless value=\"${not with}\"/><xacro:if value=\"${'$(arg tool)' == 'saw'}\"/>\
+         <xacro:if value=\"${1 &lt; 2}\"/><xacro:if value=\"$(arg DEBUG)\"/><link name=\"$(arg other)\"/>",
+    );
+    let all = in_memory("arm.urdf.xacro", &[("arm.urdf.xacro", &main)]).unwrap();
+    let found: Vec<_> =
+        all.iter().map(|one| (one.name.as_str(), one.values.join(" "), one.is_needed)).collect();
+    let text = |name, values: &str, is_needed| (name, values.to_owned(), is_needed);
+    assert_eq!(
+        found,
+        [
+            text("DEBUG", "true false", true),
+            text("hand", "true false", false),
+            text("other", "", true),
+            text("sim", "true false", true),
+            text("title", "arm", true),
+            text("tool", "saw", false),
+        ]
+    );
 }
 
 /// The arguments of a file in memory.

@@ -310,3 +310,37 @@ fn folders_say_what_they_have() {
     assert!(macros.contains("`m` (") && macros.contains("macros.xacro:1)"), "{macros}");
     assert!(packages.starts_with("2 packages are named `p`: "), "{packages}");
 }
+
+#[test]
+fn what_is_included_by_default_is_a_part() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path();
+    let main = |include: &str| {
+        robot(&format!(
+            "<xacro:arg name=\"file\" default=\"empty.urdf\"/><xacro:property name=\"other\" value=\"$(arg file)\"/><link name=\"a\"/><xacro:include filename=\"{include}\"/>"
+        ))
+    };
+    for (include, is_part) in [
+        ("empty.urdf", true),
+        ("$(optenv EXTRAS empty.urdf)", true),
+        ("$(arg file)", true),
+        ("${other}", true),
+        ("$(dirname)/empty.urdf", true),
+        ("$(optenv EXTRAS)", false),
+        ("$(arg unknown)", false),
+        ("$(arg", false),
+    ] {
+        put(
+            root,
+            &[
+                ("urdf/arm.urdf.xacro", &main(include)),
+                ("urdf/empty.urdf", "<robot><!-- a place --></robot>"),
+            ],
+        );
+        let batch = find(&[root.to_owned()], &Settings::default()).expect("found");
+        let empty = root.join("urdf/empty.urdf");
+        assert_eq!(batch.description.may_be_part(&empty), is_part, "{include}");
+        let error = crate::load(&empty, &Settings::default()).expect_err("no robot");
+        assert_eq!(batch.is_part(&empty, &error), is_part, "{include}: {error}");
+    }
+}
