@@ -10,7 +10,7 @@ use urdd_xml::element::name;
 
 use crate::files::MAX_SOURCE_BYTES;
 use crate::written::seen_from;
-use crate::xacro::Trail;
+use crate::trail::Trail;
 
 /// An argument that no file takes.
 #[derive(Debug, Clone, PartialEq, Eq)]
