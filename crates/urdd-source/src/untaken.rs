@@ -29,7 +29,8 @@ pub(crate) fn untaken<'a>(
     given: impl Iterator<Item = &'a String>,
 ) -> Vec<Untaken> {
     let given: BTreeSet<&str> = given.filter_map(|word| Some(word.split_once(":=")?.0)).collect();
-    if given.is_empty() {
+    // Of a run that noted nothing, nothing is known.
+    if given.is_empty() || trail.files.is_empty() {
         return Vec::new();
     }
     let folder = file.parent().unwrap_or(Path::new(""));

@@ -108,7 +108,7 @@ fore:
     "config/arm.srdf": """\
 <?xml version="1.0"?>
 <robot name="arm">
-  <disable_collisions link1="base" link2="left_upper" reason="Adjacent"/>
+  <group name="stand"><link name="base"/></group>
 </robot>
 """,
 }
@@ -126,8 +126,8 @@ CHANGES = [
     ("limit", "urdf/arm_macro.xacro", "lower=\"${limits['lower']}\"", 'lower="7"'),
     ("mesh", "urdf/arm_macro.xacro", "meshes/bar.stl", "meshes/bars.stl"),
     ("macro", "urdf/arm.urdf.xacro", 'mass="1.5"', 'weight="1.5"'),
-    ("YAML", "config/limits.yaml", "  lower: -2.0", "  lower: 3.0"),
-    ("SRDF", "config/arm.srdf", 'link2="left_upper"', 'link2="left_uper"'),
+    ("YAML", "config/limits.yaml", "  lower: -2.0", "  lower: -2,0"),
+    ("SRDF", "config/arm.srdf", '<link name="base"/>', '<link name="bsae"/>'),
     ("controller", "urdf/arm.ros2_control.xacro", '<joint name="${prefix}fore_joint">', '<joint name="${prefix}four_joint">'),
     ("velocity", "urdf/arm.urdf.xacro", 'velocity="2.0"', 'velocity="200.0"'),
 ]
@@ -148,14 +148,15 @@ def bar() -> bytes:
 def recipes() -> dict[str, list[str]]:
     """The commands that docs/ci.md and action.yml have, for a whole package."""
     page = (ROOT / "docs/ci.md").read_text(encoding="utf-8")
-    blocks = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
-    local = next(block for block in map(yaml.safe_load, blocks) if block.get("repos", [{}])[0].get("repo") == "local")
+    blocks = [yaml.safe_load(text) for text in re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)]
+    blocks = [block for block in blocks if isinstance(block, dict)]
+    local = next(block for block in blocks if block.get("repos", [{}])[0].get("repo") == "local")
     hook = next(hook for hook in local["repos"][0]["hooks"] if hook["id"] == "urdd-lint")
-    gitlab = next(block["urdd"] for block in map(yaml.safe_load, blocks) if "urdd" in block)
+    gitlab = next(block["urdd"] for block in blocks if "urdd" in block)
     command = next(line for line in gitlab["script"] if line.startswith("urdd lint"))
     action = next(
         step["with"]
-        for block in map(yaml.safe_load, blocks)
+        for block in blocks
         for job in block.get("jobs", {}).values()
         for step in job["steps"]
         if "urdd@" in step.get("uses", "")

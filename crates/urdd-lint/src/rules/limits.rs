@@ -122,8 +122,10 @@ const FASTEST: f64 = 7200.0;
 
 /// Whether a velocity is above what motors do, and does not stand for "unlimited", as 100, 500 and 999 do.
 fn is_too_fast(velocity: f64, from: f64) -> bool {
-    let is_round = velocity % 100.0 == 0.0 || (velocity + 1.0) % 1000.0 == 0.0;
-    (from..=FASTEST).contains(&velocity) && !is_round
+    let digits = velocity.to_string();
+    let is_round = ["1", "5"].contains(&digits.trim_end_matches('0')) && velocity % 100.0 == 0.0;
+    let is_nines = digits.len() > 2 && digits.bytes().all(|digit| digit == b'9');
+    (from..=FASTEST).contains(&velocity) && !is_round && !is_nines
 }
 
 fn limits_look_like_degrees(urdf: &Subject, findings: &mut Findings) -> Option<()> {

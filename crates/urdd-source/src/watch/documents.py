@@ -107,7 +107,12 @@ class Watch(object):
                 return
             inner, seen = getattr(inner, "exc", None) or inner.__context__, seen + 1
         if place is not None:
-            self.error, self.fault = error, [list(place), self.call]
+            place = list(place)
+            named = re.match(r'Invalid parameter "([^"]*)"', str(error))
+            if named and len(place) > 3 and not place[3]:
+                # The attribute of the call.
+                place[3] = named.group(1)
+            self.error, self.fault = error, [place, self.call]
 
     def read(self, kind, places):
         if self.reading:
