@@ -1,25 +1,21 @@
 //! gz_ros2_control: a plugin of a model in Gazebo, which has a controller manager with a resource manager of its own.
 
-use super::parser::{Hardware, Interface, controls};
+use super::parser::{Hardware, IN_GAZEBO, Interface, MOCK, controls};
 use crate::prelude::*;
 use crate::sdformat::HARMONIC;
 
 /// The classes of the library, the second from before it had its name.
 const CLASSES: [&str; 2] =
     ["gz_ros2_control::GazeboSimROS2ControlPlugin", "ign_ros2_control::IgnitionROS2ControlPlugin"];
-const HARDWARE: [&str; 2] = ["gz_ros2_control/GazeboSimSystem", "ign_ros2_control/IgnitionSystem"];
 /// Hardware of others that Gazebo does not have.
-const OTHERS: [&str; 3] = [
-    "mock_components/GenericSystem",
-    "fake_components/GenericSystem",
-    "gazebo_ros2_control/GazeboSystem",
-];
+const OTHERS: [&str; 3] =
+    [MOCK, "fake_components/GenericSystem", "gazebo_ros2_control/GazeboSystem"];
 
 /// Whether a robot has its plugin or its hardware.
 pub fn is_for(file: &File<'_>) -> bool {
     let hardware = controls(file).flat_map(|one| one.named("hardware"));
     let mut plugins = hardware.filter_map(|one| one.child("plugin")?.text());
-    let is_own = |name: &str| HARDWARE.contains(&name.trim_matches(is_space));
+    let is_own = |name: &str| IN_GAZEBO.contains(&name.trim_matches(is_space));
     plugins.any(is_own) || (controls(file).next().is_some() && system(file).is_some())
 }
 
@@ -49,7 +45,7 @@ pub fn load(file: &File<'_>, all: &[Hardware<'_>], effects: &mut Effects) -> Rea
             Some((node, plugin)) if OTHERS.contains(&plugin) => {
                 effects.drop(node, part, Fault::Way("the plugin is not one of Gazebo"));
             }
-            Some((_, plugin)) if HARDWARE.contains(&plugin) => {
+            Some((_, plugin)) if IN_GAZEBO.contains(&plugin) => {
                 initialize(hardware, &lost, effects)?;
             }
             // Others may have made their own.

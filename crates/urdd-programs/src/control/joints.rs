@@ -1,6 +1,6 @@
 //! What Jazzy's parser asks of joints: it reads the URDF too, by urdfdom.
 
-use super::parser::{Component, Hardware};
+use super::parser::{Component, Hardware, IN_GAZEBO, MOCK, NO_LEADER, param};
 use crate::prelude::*;
 use crate::tree::Tree;
 use crate::urdfdom::{self, Model};
@@ -9,13 +9,13 @@ const COMMANDED: Fault = Fault::Control(
     "the joint follows another one, and has a command interface",
     "remove the interface, or write `mimic=\"false\"` on this joint",
 );
-const NO_LEADER: Fault = Fault::Control(
-    "the joint that it follows is not in this `<ros2_control>`",
-    "add it, or write `mimic=\"false\"` on this joint",
-);
 const NO_MIMIC: Fault = Fault::Control(
     "`mimic` is true, and the joint of the robot has no `<mimic>`",
     "write it there, or remove the attribute",
+);
+const NOT_FOLLOWED: Fault = Fault::Control(
+    "`<param name=\"mimic\">` is for ROS humble alone, and the joint of the robot has no `<mimic>`",
+    "write it there",
 );
 const FIXED: Fault = Fault::Control("the joint is fixed", "remove it here");
 
@@ -25,6 +25,14 @@ pub fn check<'t>(tree: &'t Tree<'t>, all: &[Hardware<'_>], effects: &mut Effects
         for joint in hardware.joints() {
             check_joint(joint, hardware, &model, effects)?;
             limits(joint, effects);
+            let plugin = hardware.plugin.map_or("", |(_, plugin)| plugin);
+            let has_mimic = || model.joints.get(joint.name)?.node.child("mimic");
+            // Other hardware may read it.
+            let is_known = plugin == MOCK || IN_GAZEBO.contains(&plugin);
+            let mimic = param(joint.node, "mimic").filter(|_| is_known && has_mimic().is_none());
+            if let Some((mimic, _)) = mimic {
+                effects.drop(mimic, Part::of("joint", joint.name).inside("mimic"), NOT_FOLLOWED);
+            }
         }
     }
     Ok(())

@@ -1,10 +1,7 @@
 //! `ResourceManager`: loads the hardware, and asks it for the interfaces that are written.
 
-use super::parser::{Component, Hardware, Interface, Release};
+use super::parser::{Component, Hardware, Interface, MOCK, NO_LEADER, Release, param};
 use crate::prelude::*;
-
-/// The only hardware of ros2_control itself.
-const MOCK: &str = "mock_components/GenericSystem";
 
 pub fn load(all: &[Hardware<'_>], release: Release, effects: &mut Effects) -> Reading<()> {
     let mut names = HashSet::new();
@@ -17,7 +14,7 @@ pub fn load(all: &[Hardware<'_>], release: Release, effects: &mut Effects) -> Re
             return effects.refuse(at(hardware, "name"), fault);
         }
         if is_known {
-            plugin(hardware, effects)?;
+            plugin(hardware, release, effects)?;
             names.insert(hardware.name);
             export(hardware, &mut interfaces, effects);
         }
@@ -34,7 +31,7 @@ fn at(hardware: &Hardware<'_>, name: &str) -> usize {
 }
 
 /// The plugin is supposed to be installed.
-fn plugin(hardware: &Hardware<'_>, effects: &mut Effects) -> Reading<()> {
+fn plugin(hardware: &Hardware<'_>, release: Release, effects: &mut Effects) -> Reading<()> {
     let Some((node, name)) = hardware.plugin else {
         return effects.refuse(hardware.node, Fault::MissingElement("hardware"));
     };
@@ -50,6 +47,20 @@ fn plugin(hardware: &Hardware<'_>, effects: &mut Effects) -> Reading<()> {
     }
     if name == MOCK {
         initial_values(hardware, effects)?;
+        if release == Release::Two {
+            followers(hardware, effects)?;
+        }
+    }
+    Ok(())
+}
+
+/// In Humble, `<param name="mimic">` says what a joint follows.
+fn followers(hardware: &Hardware<'_>, effects: &mut Effects) -> Reading<()> {
+    for joint in hardware.joints() {
+        let Some((mimic, leader)) = param(joint.node, "mimic") else { continue };
+        if !hardware.has_joint(leader) {
+            return effects.refuse(mimic, NO_LEADER);
+        }
     }
     Ok(())
 }

@@ -70,10 +70,7 @@ fn read<'t>(
         "`<ros2_control>` is not directly in `<robot>`",
         "move it there: out of `<gazebo>`, if it is in one",
     );
-    // Ubuntu 22.04 has tinyxml2 9.
-    let max_depth =
-        if release == Release::Two { tinyxml::OLD_MAX_DEPTH } else { tinyxml::MAX_DEPTH };
-    let tree = effects.parsed(file.document.within(max_depth))?;
+    let tree = effects.parsed(file.document.within(tinyxml::MAX_DEPTH))?;
     let robot = effects.robot(tree)?;
     let mut strays =
         controls(file).filter(|one| robot.named(NAME).all(|own| own.index != one.index));

@@ -66,29 +66,40 @@ impl<'t> Interface<'t> {
         Part::of(self.node.name(), component.name)
     }
 
-    /// The `<param>` of a name, the last if there are several, and its text.
-    pub fn param(&self, name: &str) -> Option<(Node<'t>, &'t str)> {
-        let named = |param: &Node<'_>| param.value("name").is_some_and(|one| strip(one) == name);
-        let param = self.node.named("param").filter(named).last()?;
-        Some((param, strip(param.text()?))).filter(|(_, text)| !text.is_empty())
-    }
-
-    /// Such a parameter, if it is not a number: where, and why.
+    /// A parameter that is not a number: where, and why.
     pub fn not_a_number(&self, name: &'static str) -> Option<(Node<'t>, Fault)> {
-        let (param, text) = self.param(name)?;
+        let (param, text) = param(self.node, name)?;
         let is_number = whole(istream(text)).is_some();
         (!is_number)
             .then(|| (param, Fault::NotANumber { attribute: name.into(), text: text.into() }))
     }
 }
 
-pub const COMMAND: &str = "command_interface";
+/// The `<param>` of a name in an element, the last if there are several, and its text.
+pub fn param<'t>(node: Node<'t>, name: &str) -> Option<(Node<'t>, &'t str)> {
+    let named = |param: &Node<'_>| param.value("name").is_some_and(|one| strip(one) == name);
+    let param = node.named("param").filter(named).last()?;
+    Some((param, strip(param.text()?))).filter(|(_, text)| !text.is_empty())
+}
+
+/// The hardware of ros2_control itself.
+pub const MOCK: &str = "mock_components/GenericSystem";
+/// That of gz_ros2_control, the second from before it had its name.
+pub const IN_GAZEBO: [&str; 2] =
+    ["gz_ros2_control/GazeboSimSystem", "ign_ros2_control/IgnitionSystem"];
+
+const COMMAND: &str = "command_interface";
 const STATE: &str = "state_interface";
 const COUNT: &str = "a whole number above 0";
 
 fn strip(text: &str) -> &str {
     text.trim_matches(is_space)
 }
+
+pub const NO_LEADER: Fault = Fault::Control(
+    "the joint that it follows is not in this `<ros2_control>`",
+    "add it, or write `mimic=\"false\"` on this joint",
+);
 
 struct Parser<'r> {
     release: Release,

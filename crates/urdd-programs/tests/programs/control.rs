@@ -174,6 +174,47 @@ fn numbers_are_read_where_they_are_used() {
     }
 }
 
+/// `on_init` of `GenericSystem` in 2.54.0; 4.46.0 has what the parser makes of `<mimic>`.
+#[test]
+fn a_parameter_mimic_is_for_humble() {
+    let follows = |leader: &str| {
+        let param =
+            format!("<joint name=\"elbow\" mimic=\"false\"><param name=\"mimic\">{leader}</param>");
+        changed(&[
+            ("maker/Arm", "mock_components/GenericSystem"),
+            ("<joint name=\"elbow\" mimic=\"false\">", &param),
+        ])
+    };
+    assert_eq!(does(HUMBLE, &follows("shoulder")), []);
+    assert_eq!(does(HUMBLE, &follows("mount")), refuses("<param name=\"mimic\""));
+    let expected = [drops("<param name=\"mimic\"", "joint/elbow/mimic")];
+    assert_eq!(does(JAZZY, &follows("shoulder")), expected);
+    // Other hardware may read it, and a joint of the robot may have both.
+    let other = follows("shoulder").replace("mock_components/GenericSystem", "maker/Arm");
+    assert_eq!(does(JAZZY, &other), []);
+    let close = "<joint name=\"close\" mimic=\"true\">";
+    let param = format!("{close}<param name=\"mimic\">open</param>");
+    let text = changed(&[("maker/Arm", "mock_components/GenericSystem"), (close, &param)]);
+    assert_eq!(does(JAZZY, &text), []);
+}
+
+#[test]
+fn damaged_files_are_read_without_a_panic() {
+    let system = format!("{SYSTEM}</robot>");
+    let text = changed(&[("maker/Arm", "gz_ros2_control/GazeboSimSystem"), ("</robot>", &system)]);
+    for start in (0..text.len()).step_by(17) {
+        for length in [1, 9, 200, text.len()] {
+            let mut damaged = text.clone();
+            damaged.replace_range(start..text.len().min(start + length), "");
+            for program in [HUMBLE, JAZZY, GAZEBO] {
+                let Ok(counted) = Counted::new(damaged.as_bytes(), Kind::Robot) else { continue };
+                let effects = program.read(&File::new(counted, &|_| Mesh::Missing));
+                assert!(effects.kept().iter().all(|effect| effect.at <= damaged.len()));
+            }
+        }
+    }
+}
+
 #[test]
 fn humble_keeps_white_space() {
     let plugin = [("maker/Arm", "\n maker/Arm\n")];
