@@ -17,7 +17,7 @@ use urdd_format::report::{Kind, Report, Severity, Status, Urdd, Verdict};
 /// # Errors
 /// If writing fails.
 pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::Result {
-    let variants = Variants::new(report, Some(places));
+    let variants = Variants::by_first_place(report, places);
     for (number, (urdd, place)) in report.urdds.iter().zip(places).enumerate() {
         if let Some(reason) = &urdd.reason {
             // A folder is no file that Actions shows.
