@@ -16,7 +16,7 @@ macro_rules! updates {
 
 /// The tests to run, by prefix of their path, and what to do if one fails.
 const TESTS: &[(&str, &str)] = &[
-    ("spec_agrees::the_tables_of_fields", updates!("fields")),
+    ("spec_agrees::the_annexes", updates!("fields")),
     (
         "spec_agrees::the_table_of_modules",
         "list the module in the table of SPEC.md, clause 2.2.1, where the registry has it",

@@ -33,7 +33,7 @@ const WRITERS: &[(&str, &str, &[&str])] = &[
     ("types", "format", &["typescript::", "cpp_types::"]),
     ("imports", "program", &["imports::the_page"]),
     ("snapshots", "program", &["snapshots::"]),
-    ("fields", "program", &["spec_agrees::the_tables_of_fields"]),
+    ("fields", "program", &["spec_agrees::the_annexes"]),
     ("programs", "lint", &["in_programs::"]),
 ];
 

@@ -36,6 +36,9 @@ impl ValuePlace {
     }
 }
 
+/// Where an element begins, and the number of the innermost call that it is from.
+type Element = (usize, u32, u32, Option<usize>);
+
 /// A call of a macro: where it is, its name, and the number of the call whose macro has it.
 type Call = (Option<ElementPlace>, String, Option<usize>);
 
@@ -45,9 +48,8 @@ type Call = (Option<ElementPlace>, String, Option<usize>);
 pub struct Trail {
     /// The files, with symbolic links resolved.
     pub(super) files: Vec<PathBuf>,
-    /// The file, the line and the column of each element, and the number of the innermost call that it is from; `None` for
-    /// one that macros made of nothing.
-    pub(super) elements: Vec<Option<(usize, u32, u32, Option<usize>)>>,
+    /// All elements; `None` for one that macros made of nothing.
+    pub(super) elements: Vec<Option<Element>>,
     /// All calls of macros, those around others first.
     pub(super) calls: Vec<Call>,
     /// Attributes by the numbers of their elements, with the place outside of the element that their value is from. That of the

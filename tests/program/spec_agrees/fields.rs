@@ -16,6 +16,7 @@ pub fn tables() -> String {
         match subject {
             Subject::Module(spec) if spec.profile != Profile::V1 => continue,
             Subject::Report
+            | Subject::EarlierReport(1..)
             | Subject::DiffReport
             | Subject::EarlierDiffReport(_)
             | Subject::ProducerResult

@@ -17,7 +17,7 @@ use urdd_format::report::{Kind, Report, Severity, Status, Urdd};
 /// # Errors
 /// If writing fails.
 pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::Result {
-    let variants = Variants::new(report, Some(places));
+    let variants = Variants::by_first_place(report, places);
     for (number, (urdd, place)) in report.urdds.iter().zip(places).enumerate() {
         if let Some(why) = urdd.not_examined.as_ref().filter(|_| !is_a_finding(urdd)) {
             // A folder is no file that Actions shows.

@@ -2,12 +2,16 @@
 
 use std::collections::HashMap;
 
-use urdd_format::report::{Finding, Report, Urdd};
+use urdd_format::index::Count;
+use urdd_format::report::{Finding, Place, Report, Urdd};
 
 use crate::run::{file_in, is_inside};
 
 /// Maximum number of variants that are named.
 const NAMED: usize = 3;
+
+/// A file, a line and a column.
+type FoundAt = (Option<String>, Option<Count>, Option<Count>);
 
 /// The findings of a report that are one for people, by the numbers of their robots and their own.
 pub(super) struct Variants<'a> {
@@ -22,6 +26,20 @@ impl<'a> Variants<'a> {
     /// Those of a report. `places` are the folders of its robots, if they are known; without them, only variants of one path
     /// are compared.
     pub(super) fn new(report: &'a Report, places: Option<&[String]>) -> Self {
+        let at = |place: &Place| (place.file.clone(), place.line, place.column);
+        Self::alike(report, places, |finding| finding.places.iter().map(at).collect())
+    }
+
+    /// As [`Variants::new`], where people see the first place of a finding alone.
+    pub(super) fn by_first_place(report: &'a Report, places: &[String]) -> Self {
+        Self::alike(report, Some(places), |_| Vec::new())
+    }
+
+    fn alike(
+        report: &'a Report,
+        places: Option<&[String]>,
+        more: impl Fn(&Finding) -> Vec<FoundAt>,
+    ) -> Self {
         let mut first: HashMap<(usize, usize), Vec<usize>> = HashMap::new();
         let (mut repeated, mut known) = (HashMap::new(), HashMap::new());
         for (number, urdd) in report.urdds.iter().enumerate() {
@@ -31,7 +49,7 @@ impl<'a> Variants<'a> {
                     continue;
                 };
                 let Finding { code, severity, line, column, message, .. } = finding;
-                let key = (code, severity, file, line, column, message);
+                let key = (code, severity, file, line, column, message, more(finding));
                 // A robot may have the same twice, from two calls of a macro.
                 let nth = times.entry(key.clone()).or_default();
                 *nth += 1;
