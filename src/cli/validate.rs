@@ -92,7 +92,7 @@ pub(super) struct ReportArguments {
 
     /// Also writes the report to a file, in the format of the file's extension: .sarif, .xml (JUnit), .md (a summary),
     /// otherwise JSON. May be repeated.
-    #[arg(long, visible_alias = "report", value_name = "FILE")]
+    #[arg(long, alias = "report", value_name = "FILE")]
     output: Vec<PathBuf>,
 
     /// Lowest severity of findings that fails the run; default: `error`.

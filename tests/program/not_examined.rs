@@ -130,12 +130,10 @@ fn every_report_says_what_was_not_examined_where_and_why() {
     assert!(junit.contains("errors=\"1\"") && junit.contains(why), "{junit}");
     let sarif: Value = serde_json::from_str(&both("sarif")).expect("JSON");
     let results = sarif["runs"][0]["results"].as_array().expect("results");
-    assert_eq!(results.len(), 1, "{results:?}");
-    assert_eq!(
-        (&results[0]["ruleId"], &results[0]["level"]),
-        (&"not-examined".into(), &"error".into())
-    );
-    let artifact = &results[0]["locations"][0]["physicalLocation"]["artifactLocation"];
+    let open = results.iter().filter(|result| result["ruleId"] == "not-examined");
+    let open: Vec<&Value> = open.collect();
+    assert_eq!((open.len(), &open[0]["level"]), (1, &"error".into()), "{results:?}");
+    let artifact = &open[0]["locations"][0]["physicalLocation"]["artifactLocation"];
     assert_eq!(artifact["uri"], "arm.xacro");
     // A baseline holds what was found, and never what was not looked at.
     lint(&["bars.urdf", "arm.xacro", "--write-baseline", "base.json"], 1);

@@ -52,8 +52,9 @@ fn spheres_go_from_a_urdf_to_a_planner_and_back() {
     assert!(told.contains("these links touch") && told.contains(": `a` with `c`\n"), "{told}");
     // A list of one link empties no other: a check by spheres would call free what touches them.
     run(folder, &["spheres", "import", "s.yml", "bars"]);
+    const MODULE: &str = "link_shapes_modules/link_shapes_spheres_module/module.json";
     let count = |link: usize| {
-        let text = fs::read_to_string(folder.join("bars/link_shapes_spheres_module/module.json"));
+        let text = fs::read_to_string(folder.join("bars").join(MODULE));
         let module: Value = serde_json::from_str(&text.expect("read")).expect("JSON");
         module["levels"][3]["spheres"][link].as_array().expect("a list").len()
     };

@@ -79,7 +79,8 @@ types! {
         pub verdict: Verdict,
         /// Why it is unreadable; else null.
         pub reason: Option<String>,
-        /// Why nothing was examined, so that it neither passes nor fails; null where something was.
+        /// Why nothing was examined, so that it neither passes nor fails; null where something was. The verdict is then
+        /// `unreadable`, or `incomplete` after a crash.
         pub not_examined: Option<NotExamined>,
         /// How large the robot is.
         pub size: Size,
@@ -123,11 +124,11 @@ types! {
 
     /// What came of examining a URDD.
     pub enum Verdict {
-        /// Rules looked at it, and nothing was found at or above the severity at which a run fails.
+        /// Nothing found at or above the severity at which a run fails.
         Pass = "pass",
         /// Something found.
         Fail = "fail",
-        /// The folder could not be read, or nothing was examined for another reason: `not_examined` says why.
+        /// The folder could not be read.
         Unreadable = "unreadable",
         /// A rule crashed: a bug in this program. The URDD is not fully examined.
         Incomplete = "incomplete",

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 __all__ = [
+    "Cause",
     "CheckStatus",
     "Consequence",
     "Deed",
@@ -34,6 +35,7 @@ __all__ = [
     "Module",
     "ModuleDifference",
     "NotChecked",
+    "NotExamined",
     "PairChange",
     "PairDifference",
     "PartDifference",
@@ -67,10 +69,20 @@ Kind: TypeAlias = Literal["urdd", "urdf"]
 
 Verdict: TypeAlias = Literal["pass", "fail", "unreadable", "incomplete"]
 """What came of examining a URDD.
-- `pass`: Nothing found at or above the severity at which a run fails.
+- `pass`: Rules looked at it, and nothing was found at or above the severity at which a run fails.
 - `fail`: Something found.
-- `unreadable`: The folder could not be read.
+- `unreadable`: The folder could not be read, or nothing was examined for another reason: `not_examined` says
+  why.
 - `incomplete`: A rule crashed: a bug in this program. The URDD is not fully examined.
+"""
+
+Cause: TypeAlias = Literal["unreadable", "arguments", "limit", "crash", "no-rule"]
+"""What keeps a URDD or URDF from being examined.
+- `unreadable`: It cannot be read.
+- `arguments`: It is a xacro file that needs arguments, or does not take one that is declared of it.
+- `limit`: It takes more time or memory than it may.
+- `crash`: The program crashed: a bug in it.
+- `no-rule`: No rule that was selected could look at it.
 """
 
 Status: TypeAlias = Literal["passed", "failed", "skipped", "crashed"]
@@ -179,6 +191,9 @@ class Urdd:
     reason: str | None
     """Why it is unreadable; else null."""
 
+    not_examined: NotExamined | None
+    """Why nothing was examined, so that it neither passes nor fails; null where something was."""
+
     size: Size
     """How large the robot is."""
 
@@ -206,6 +221,31 @@ class Urdd:
 
     imported: ImportedFrom | None
     """The description that the URDF was imported from; null where it was written as a URDF."""
+
+
+@dataclass(frozen=True)
+class NotExamined:
+    """Why a URDD or URDF was not examined."""
+
+    cause: Cause
+    """What kind of reason it is."""
+
+    reason: str
+    """Why, and what to do."""
+
+    is_asked_for: bool
+    """Whether a person names or declares it, so that the run fails. A xacro file that was found in a folder and
+    needs arguments is not asked for."""
+
+    file: str | None
+    """The file with the reason, as seen from the folder of what was to be examined, with forward slashes; null
+    where it is not known."""
+
+    line: int | None
+    """Line in the file, from 1."""
+
+    column: int | None
+    """Column in the line, in characters, from 1."""
 
 
 @dataclass(frozen=True)
@@ -611,6 +651,15 @@ class Totals:
     urdds: int
     """Number of URDDs."""
 
+    passed: int
+    """Number of those that pass."""
+
+    failed: int
+    """Number of those that fail, or of which a rule crashed."""
+
+    not_examined: int
+    """Number of those that were not examined."""
+
     error: int
     """Number of errors."""
 
@@ -932,6 +981,7 @@ def _urdd(v: Any) -> Urdd:
         xacro_arguments=v["xacro_arguments"],
         verdict=v["verdict"],
         reason=v["reason"],
+        not_examined=None if v["not_examined"] is None else _not_examined(v["not_examined"]),
         size=_size(v["size"]),
         modules=[_module(x) for x in v["modules"]],
         checks=[_check_status(x) for x in v["checks"]],
@@ -941,6 +991,17 @@ def _urdd(v: Any) -> Urdd:
         model_not_verified=None if v["model_not_verified"] is None else _model_not_verified(v["model_not_verified"]),
         programs=[_program_result(x) for x in v.get("programs", [])],
         imported=None if v["imported"] is None else _imported_from(v["imported"]),
+    )
+
+
+def _not_examined(v: Any) -> NotExamined:
+    return NotExamined(
+        cause=v["cause"],
+        reason=v["reason"],
+        is_asked_for=v["is_asked_for"],
+        file=v["file"],
+        line=None if v["line"] is None else int(v["line"]),
+        column=None if v["column"] is None else int(v["column"]),
     )
 
 
@@ -1141,6 +1202,9 @@ def _stale_ignore(v: Any) -> StaleIgnore:
 def _totals(v: Any) -> Totals:
     return Totals(
         urdds=int(v["urdds"]),
+        passed=int(v["passed"]),
+        failed=int(v["failed"]),
+        not_examined=int(v["not_examined"]),
         error=int(v["error"]),
         warning=int(v["warning"]),
         info=int(v["info"]),

@@ -79,6 +79,9 @@ fn text(arguments: &InfoArguments) -> Result<String, Failure> {
             let info = closed.map_or_else(|| Info::read(&path, &name), Err);
             let about = |error: &dyn Display| format!("{}: {error}", escape::line(&name));
             let mut info = info.map_err(|error| about(&error))?;
+            if info.robot_name.is_none() && info.modules.is_empty() {
+                Err(about(&"nothing in it can be read; `urdd validate` says why"))?;
+            }
             let statics = Statics::of(&path, &arguments.statics);
             info.statics = statics.map_err(|error| about(&error))?;
             if arguments.order {
