@@ -24,7 +24,7 @@ fn does(program: Program, text: &str) -> Vec<(Deed, &str, String)> {
     effects.map(|effect| (effect.deed, at(effect.at), effect.part.to_string())).collect()
 }
 
-fn refuses<'t>(text: &'t str) -> Vec<(Deed, &'t str, String)> {
+fn refuses(text: &str) -> Vec<(Deed, &str, String)> {
     vec![(Deed::Refuses, text, String::new())]
 }
 
