@@ -44,7 +44,7 @@ pub fn closeness(known: &str, name: &str) -> Closeness {
     Closeness {
         edits: strsim::osa_distance(&lower, &name),
         is_of_another_part: is_of_another_part(&lower, &name),
-        changed: (lower.len() + name.len()).saturating_sub(kept),
+        changed: (lower.len() + name.len()).saturating_sub(2 * kept),
     }
 }
 

@@ -33,6 +33,9 @@ const OWN: [&str; 9] =
 /// How the names of arguments end that are names of files.
 const FILES: [&str; 3] = ["file", "path", "yaml"];
 
+/// The values of an argument that conditions ask for and nothing else.
+const FLAGS: [&str; 6] = ["true", "false", "True", "False", "1", "0"];
+
 /// Why the arguments of a file are not known.
 #[derive(Debug, Error)]
 #[expect(missing_docs, reason = "the messages say it")]
@@ -251,6 +254,10 @@ impl<'a> Texts<'a> {
         let mut all = Vec::new();
         for (name, found) in &self.found {
             let mut values = self.values(name, found)?;
+            let mut asked = found.asked.clone();
+            // A text that is empty or not is no flag.
+            let is_flag = found.default.as_deref().is_none_or(|default| FLAGS.contains(&default));
+            asked.retain(|value| is_flag || !FLAGS.contains(&value.as_str()));
             let is_number = |text: &String| text.parse::<f64>().is_ok();
             if found.default.as_ref().is_some_and(is_number) {
                 // `arm_gripper.yaml` beside `arm6.yaml` and `arm7.yaml`.
@@ -261,7 +268,7 @@ impl<'a> Texts<'a> {
             let is_needed =
                 found.is_of_root || found.default.is_none() || literal.is_some_and(has_no_files);
             if values.is_empty() {
-                values = listed.get(name).unwrap_or(&found.asked).clone();
+                values = listed.get(name).unwrap_or(&asked).clone();
             }
             if values.is_empty() && found.is_of_root {
                 let stem = file.file_name().unwrap_or_default().to_string_lossy();
@@ -269,7 +276,7 @@ impl<'a> Texts<'a> {
                 values.push(literal.cloned().unwrap_or_else(stem));
             }
             let (name, default) = (name.clone(), found.default.clone());
-            let is_condition = !found.asked.is_empty();
+            let is_condition = !asked.is_empty();
             all.push(XacroArgument {
                 name,
                 default,
