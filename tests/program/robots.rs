@@ -201,7 +201,7 @@ fn an_argument_that_decides_whether_a_property_is_there_is_needed() {
     };
     write("corner", "");
     let (status, said) = run(root, &["lint", "arms", "--xacro"]);
-    assert_eq!(status, Some(0), "{said}");
+    assert_eq!(status, Some(2), "{said}");
     assert!(said.contains("arm.urdf.xacro:2:1 (argument `side`)"), "{said}");
     assert!(said.contains("the robot needs `side` (left, right); "), "{said}");
     run(root, &["lint", "arms", "--xacro", "--write-robots"]);

@@ -110,7 +110,8 @@ fn in_original(place: &mut Place, is_import: bool) {
     }
     place.related.iter_mut().for_each(|related| in_original(related, is_import));
     // An element of which the fault that it has is told at one literal: there.
-    let is_literal = |place: &Place| place.written_at.as_ref().is_some_and(|at| at.used_at.is_some());
+    let is_literal =
+        |place: &Place| place.written_at.as_ref().is_some_and(|at| at.used_at.is_some());
     if place.written_at.is_some() && !is_literal(place) {
         let mut literals = place.related.iter().filter(|related| is_literal(related));
         if let (Some(only), None) = (literals.next(), literals.next()) {

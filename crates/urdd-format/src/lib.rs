@@ -54,6 +54,7 @@ pub mod named_configurations;
 pub mod nearest;
 #[doc(hidden)]
 pub mod new_extension;
+mod not_examined;
 pub mod object;
 pub mod original_meshes;
 pub mod plain_meshes;

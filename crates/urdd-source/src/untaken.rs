@@ -9,8 +9,8 @@ use urdd_format::nearest::nearest;
 use urdd_xml::element::name;
 
 use crate::files::MAX_SOURCE_BYTES;
-use crate::written::seen_from;
 use crate::trail::Trail;
+use crate::written::seen_from;
 
 /// An argument that no file takes.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -69,10 +69,9 @@ Kind: TypeAlias = Literal["urdd", "urdf"]
 
 Verdict: TypeAlias = Literal["pass", "fail", "unreadable", "incomplete"]
 """What came of examining a URDD.
-- `pass`: Rules looked at it, and nothing was found at or above the severity at which a run fails.
+- `pass`: Nothing found at or above the severity at which a run fails.
 - `fail`: Something found.
-- `unreadable`: The folder could not be read, or nothing was examined for another reason: `not_examined` says
-  why.
+- `unreadable`: The folder could not be read.
 - `incomplete`: A rule crashed: a bug in this program. The URDD is not fully examined.
 """
 
@@ -192,7 +191,8 @@ class Urdd:
     """Why it is unreadable; else null."""
 
     not_examined: NotExamined | None
-    """Why nothing was examined, so that it neither passes nor fails; null where something was."""
+    """Why nothing was examined, so that it neither passes nor fails; null where something was. The verdict is then
+    `unreadable`, or `incomplete` after a crash."""
 
     size: Size
     """How large the robot is."""

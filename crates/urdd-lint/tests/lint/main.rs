@@ -18,6 +18,7 @@ mod in_memory;
 mod in_programs;
 mod joined;
 mod large;
+mod meaning;
 mod messages;
 mod parses;
 mod primitives;
