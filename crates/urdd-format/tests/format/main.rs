@@ -8,6 +8,7 @@ mod annotations;
 mod cpp_types;
 mod escape;
 mod mutate;
+mod nearest;
 mod published_schemas;
 mod rate;
 mod readable;
