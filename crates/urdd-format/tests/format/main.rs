@@ -55,7 +55,7 @@ fn read(subject: Subject, value: &Value) -> Result<Document, serde_json::Error> 
             RootMetadata::deserialize(value).map(|m| Document::Root(Box::new(m)))
         }
         Subject::Module(spec) => spec.read(value).map(Document::Module),
-        Subject::Report | Subject::FirstReport => {
+        Subject::Report | Subject::EarlierReport(_) => {
             Report::deserialize(value).map(|r| Document::Report(Box::new(r)))
         }
         Subject::DiffReport | Subject::EarlierDiffReport(_) => {
@@ -86,8 +86,8 @@ fn is_written(file: &str, test: &str, expected: &str) {
 /// Every document that has a type: all but earlier versions of a report.
 fn subjects() -> impl Iterator<Item = Subject> {
     Subject::all().filter(|subject| {
-        use Subject::{EarlierDiffReport, EarlierValidatorResult, FirstReport};
-        !matches!(subject, FirstReport | EarlierDiffReport(_) | EarlierValidatorResult(_))
+        use Subject::{EarlierDiffReport, EarlierReport, EarlierValidatorResult};
+        !matches!(subject, EarlierReport(_) | EarlierDiffReport(_) | EarlierValidatorResult(_))
     })
 }
 
