@@ -122,7 +122,7 @@ fn produced(arguments: &ProducerArguments, cancellation: Cancellation) -> Result
     if failed.is_some() && !arguments.robots.is_empty() {
         Err("give --failed or --robot, not both")?;
     }
-    let class = arguments.class.into();
+    let class: ConformanceClass = arguments.class.into();
     let spheres = arguments.modules.contains(&ModuleKind::LinkShapesSpheres);
     if spheres && class != ConformanceClass::Shapes {
         Err(
