@@ -159,14 +159,14 @@ class Patch:
 
     def __init__(self, mutant: Mutant, loaded: dict[str, Loaded]) -> None:
         self.undo: list[Any] = []
-        self.blocks = {mutant.block} if mutant.block else set()
+        self.blocks = set(mutant.blocks)
         own = loaded[mutant.module]
         restore = mutant.change()
         try:
             code = own.code()
         finally:
             restore()
-        if mutant.block:
+        if self.blocks:
             codes = codes_in(code)
             for name, function in functions_of(own.module).items():
                 if function.__code__.co_code and name in codes:

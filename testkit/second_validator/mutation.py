@@ -95,7 +95,8 @@ class Mutant:
     """One change of one module."""
 
     def __init__(self, module: str, block: int, line: int, kind: str, change: Change) -> None:
-        self.module, self.block, self.line = module, block, line
+        self.module, self.line = module, line
+        self.blocks = {block} if block else set()
         self.kind, self.change = kind, change
 
 

@@ -13,6 +13,8 @@ pub type Files = BTreeMap<String, Vec<u8>>;
 
 /// The robots to run producers on: URDF files, with their meshes below.
 pub const ROBOTS: &str = "robots";
+/// Robots with loops, for producers of `loops_module`: URDF+ files, each with a list of what closes its loops.
+pub const LOOPED: &str = "looped";
 /// The stored part of the URDDs that `urdd generate` writes for these robots.
 pub const VALID: &str = "valid";
 /// The base URDDs of cases: one folder each.
@@ -93,8 +95,26 @@ impl Data {
 
     /// Names of the suite's robots, sorted.
     pub fn robots(&self) -> Vec<String> {
-        let names = self.below(ROBOTS).filter_map(|(path, _)| path.strip_suffix(".urdf"));
+        self.urdfs(ROBOTS)
+    }
+
+    /// Names of the robots with loops, sorted.
+    pub fn looped(&self) -> Vec<String> {
+        self.urdfs(LOOPED)
+    }
+
+    fn urdfs(&self, folder: &str) -> Vec<String> {
+        let names = self.below(folder).filter_map(|(path, _)| path.strip_suffix(".urdf"));
         names.filter(|name| !name.contains('/')).map(str::to_owned).collect()
+    }
+
+    /// Writes the URDFs of the robots with loops into a folder.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write_looped(&self, folder: &Path) -> Result<(), TreeError> {
+        let urdfs = self.below(LOOPED).filter(|(path, _)| path.ends_with(".urdf"));
+        Tree::of(urdfs, "").write(folder)
     }
 
     /// Writes the robots into a folder: the URDFs and the files that they name.

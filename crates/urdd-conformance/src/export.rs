@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use semver::VersionReq;
 use serde::Serialize;
 
-use crate::data::{Damage, Data, ROBOTS, VALID, VECTORS, kept, valid_id};
+use crate::data::{Damage, Data, LOOPED, ROBOTS, VALID, VECTORS, kept, valid_id};
 use crate::profile::{Profile as ValidatorProfile, decides};
 use crate::refused::{self, REFUSED};
 use crate::running::{Result, RunError, Workplace};
@@ -48,6 +48,7 @@ pub fn export(suite: &Suite, folder: &Path) -> Result<Exported> {
     let (folder, data) = (place.path(), &suite.data);
     let robots = folder.join(ROBOTS);
     data.write_robots(&robots)?;
+    Tree::of(data.below(LOOPED), "").write(&folder.join(LOOPED))?;
     Tree::of(data.below(VECTORS), "").write(&folder.join(VECTORS))?;
     refused::tree(&refused::all(suite)?).write(&folder.join(REFUSED))?;
     let never = Cancellation::default();

@@ -10,6 +10,7 @@ mod batch;
 pub mod change;
 pub mod data;
 pub mod export;
+mod looped;
 pub mod process;
 pub mod producer;
 pub mod profile;

@@ -8,6 +8,7 @@ use parking_lot::Mutex;
 use rayon::prelude::*;
 
 use crate::data::{Data, ROBOTS};
+use crate::looped;
 use crate::process::{End, Ran, Template};
 use crate::refused::{self, REFUSED, Refused, codes, examine};
 use crate::running::{Result, RunError, Skip, Workplace, check_skips, with_threads};
@@ -29,6 +30,8 @@ pub struct Plan {
     pub command: Template,
     /// The conformance class to require.
     pub class: ConformanceClass,
+    /// Modules to require that no class asks for. Robots with loops run where `loops_module` is one of them.
+    pub modules: Vec<ModuleKind>,
     /// The robots, those to refuse too; empty for all of the suite.
     pub robots: Vec<String>,
     /// Time limit per robot.
@@ -59,6 +62,8 @@ pub const SKIP_FORM: &str = "`robot  # reason`, or `robot module  # reason`";
 
 struct Sources {
     robots: Vec<String>,
+    /// Those of `robots` that have loops.
+    looped: Vec<String>,
     to_refuse: Vec<Refused>,
 }
 
@@ -68,12 +73,16 @@ impl Sources {
             || self.to_refuse.iter().any(|urdf| urdf.id == id)
     }
 
-    /// Keeps those that were asked for; nothing asked for is all.
-    fn choose(&mut self, asked: &[String]) -> Result<()> {
+    /// Keeps those that were asked for; nothing asked for is all, robots with loops where their module is asked for.
+    fn choose(&mut self, asked: &[String], modules: &[ModuleKind]) -> Result<()> {
         if let Some(unknown) = asked.iter().find(|id| !self.has(id)) {
             return Err(RunError::UnknownRobot(unknown.clone(), self.robots.join(", ")));
         }
-        self.robots.retain(|robot| asked.is_empty() || asked.contains(robot));
+        let all = |robot: &String| {
+            asked.is_empty()
+                && (modules.contains(&ModuleKind::Loops) || !self.looped.contains(robot))
+        };
+        self.robots.retain(|robot| all(robot) || asked.contains(robot));
         self.to_refuse.retain(|urdf| asked.is_empty() || asked.contains(&urdf.id));
         Ok(())
     }
@@ -98,16 +107,19 @@ pub fn run(
     observe: &(dyn Fn(&Event) + Sync),
 ) -> Result<ProducerResult> {
     let data = &suite.data;
-    let mut sources = Sources { robots: data.robots(), to_refuse: refused::all(suite)? };
+    let looped = data.looped();
+    let robots = [data.robots(), looped.clone()].concat();
+    let mut sources = Sources { robots, looped, to_refuse: refused::all(suite)? };
     check_skips(&plan.skips, |skip| sources.is_known(skip))?;
-    sources.choose(&plan.robots)?;
-    let Sources { robots: names, to_refuse } = &sources;
+    sources.choose(&plan.robots, &plan.modules)?;
+    let Sources { robots: names, looped, to_refuse } = &sources;
     let folder = Workplace::new(plan.keep.as_deref())?;
     observe(&Event::Start(names.len() + to_refuse.len()));
     // The lines of the skip list that took effect.
     let used = Mutex::new(BTreeSet::new());
     let one = |name: &String| -> Result<RobotScore> {
-        let (mut score, seconds) = robot(plan, data, name, &folder.path().join(name))?;
+        let (mut score, seconds) =
+            robot(plan, data, name, looped.contains(name), &folder.path().join(name))?;
         used.lock().extend(apply_skips(plan, &mut score));
         if score.status == ScoreStatus::Passed {
             (score.stdout, score.stderr) = (None, None);
@@ -148,7 +160,7 @@ pub fn run(
         class: plan.class,
         passed: !failed && stale_skips.is_empty(),
         classes: classes(plan.class, &robots),
-        modules: modules(plan.class, &robots),
+        modules: modules(plan, &robots),
         robots,
         refused,
         stale_skips,
@@ -173,9 +185,18 @@ fn is_asked_for(kind: ModuleKind, class: ConformanceClass) -> bool {
 }
 
 /// Runs the command on a robot, in its own folder.
-fn robot(plan: &Plan, data: &Data, name: &str, folder: &Path) -> Result<(RobotScore, f64)> {
+fn robot(
+    plan: &Plan,
+    data: &Data,
+    name: &str,
+    is_looped: bool,
+    folder: &Path,
+) -> Result<(RobotScore, f64)> {
     let robots = folder.join(ROBOTS);
-    data.write_robots(&robots)?;
+    match is_looped {
+        true => data.write_looped(&robots)?,
+        false => data.write_robots(&robots)?,
+    }
     let out = folder.join(name);
     let ran = ran(plan, &robots.join(format!("{name}.urdf")), &out)?;
     let examined = match ran.end {
@@ -184,10 +205,32 @@ fn robot(plan: &Plan, data: &Data, name: &str, folder: &Path) -> Result<(RobotSc
     };
     plan.cancellation.check()?;
     let seconds = ran.seconds();
-    Ok((score(plan, name, ran, examined), seconds))
+    let is_asked_for = |kind: ModuleKind| {
+        let on_request = plan.modules.contains(&kind) && (kind != ModuleKind::Loops || is_looped);
+        on_request || is_asked_for(kind, plan.class)
+    };
+    let mut score = score(name, is_asked_for, ran, examined);
+    if is_looped {
+        let mut modules = score.modules.iter_mut();
+        let loops = modules.find(|module| module.name == ModuleKind::Loops.name());
+        if let Some(module) = loops.filter(|module| module.status == ModuleStatus::Passed)
+            && let Some(fault) = looped::fault(data, name, &out)?
+        {
+            (module.status, module.first) = (ModuleStatus::Failed, Some(fault));
+        }
+    }
+    if score.modules.iter().any(|module| module.status != ModuleStatus::Passed) {
+        score.status = ScoreStatus::Failed;
+    }
+    Ok((score, seconds))
 }
 
-fn score(plan: &Plan, name: &str, ran: Ran, examined: Result<Urdd, Option<String>>) -> RobotScore {
+fn score(
+    name: &str,
+    is_asked_for: impl Fn(ModuleKind) -> bool,
+    ran: Ran,
+    examined: Result<Urdd, Option<String>>,
+) -> RobotScore {
     let (urdd, unreadable) = match examined {
         Ok(urdd) => (Some(urdd), None),
         Err(reason) => (None, reason),
@@ -199,7 +242,7 @@ fn score(plan: &Plan, name: &str, ran: Ran, examined: Result<Urdd, Option<String
     for kind in ModuleKind::ALL {
         let mut present = urdd.iter().flat_map(|urdd| &urdd.modules);
         let there = present.any(|module| module.name == kind.name());
-        if !there && !is_asked_for(*kind, plan.class) {
+        if !there && !is_asked_for(*kind) {
             continue;
         }
         let of_it = |finding: &&&Finding| finding.module.as_deref() == Some(kind.name());
@@ -306,14 +349,15 @@ fn classes(asked: ConformanceClass, robots: &[RobotScore]) -> Vec<ClassScore> {
         .collect()
 }
 
-fn modules(asked: ConformanceClass, robots: &[RobotScore]) -> Vec<ModuleScore> {
+fn modules(plan: &Plan, robots: &[RobotScore]) -> Vec<ModuleScore> {
     let mut scores = Vec::new();
     for kind in ModuleKind::ALL {
         let all = robots.iter().flat_map(|robot| &robot.modules);
         let own: Vec<&RobotModule> = all.filter(|module| module.name == kind.name()).collect();
         let of = |status: ModuleStatus| own.iter().filter(|m| m.status == status).count();
         let (passed, failed) = (of(ModuleStatus::Passed), of(ModuleStatus::Failed));
-        if passed + failed == 0 && !is_asked_for(*kind, asked) {
+        let on_request = plan.modules.contains(kind);
+        if passed + failed == 0 && !on_request && !is_asked_for(*kind, plan.class) {
             continue;
         }
         let codes: BTreeSet<&String> = own.iter().flat_map(|module| &module.codes).collect();
@@ -322,7 +366,8 @@ fn modules(asked: ConformanceClass, robots: &[RobotScore]) -> Vec<ModuleScore> {
             present: Count::saturating(passed + failed),
             passed: Count::saturating(passed),
             failed: Count::saturating(failed),
-            of: Count::saturating(robots.len()),
+            // Those that have to have it.
+            of: Count::saturating(if on_request { own.len() } else { robots.len() }),
             codes: codes.into_iter().cloned().collect(),
         });
     }

@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 
 use crate::root::{ReadError, Root};
 use urdd_format::hexadecimal::hexadecimal;
-use urdd_format::registry::ModuleKind;
+use urdd_format::registry::{FIRST_SPEC_VERSION, ModuleKind};
 
 /// How a file differs from its stated size and hash.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -250,10 +250,11 @@ pub fn raise_version(metadata: &mut Value, kind: ModuleKind) {
     }
 }
 
-/// Orders modules by their names.
+/// Orders modules by their names: those of 1.0 as the table has them, and all others behind them (SPEC 2.6).
 fn rank(name: &str) -> (usize, &str) {
     let mut kinds = ModuleKind::ALL.iter();
-    match kinds.position(|kind| kind.name() == name) {
+    let is_it = |kind: &ModuleKind| kind.name() == name && kind.since() == FIRST_SPEC_VERSION;
+    match kinds.position(is_it) {
         Some(place) => (place, ""),
         None => (ModuleKind::ALL.len(), name),
     }

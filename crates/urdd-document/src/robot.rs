@@ -79,11 +79,9 @@ impl Origin {
 
     /// Its rotation.
     pub fn rotation(&self) -> Matrix3<f64> {
-        let unit = self.quat_xyzw.and_then(|[x, y, z, w]| unit_quaternion([w, x, y, z]));
-        match unit {
-            Some(unit) => rotation_of_quaternion(unit),
-            None => rotation_of_rpy(self.rpy),
-        }
+        let Some([x, y, z, w]) = self.quat_xyzw else { return rotation_of_rpy(self.rpy) };
+        // One of zeros says nothing, and the rotation is none (SPEC 6.1.9).
+        unit_quaternion([w, x, y, z]).map_or_else(Matrix3::identity, rotation_of_quaternion)
     }
 
     /// It as a rigid motion, m.

@@ -6,6 +6,7 @@ mod validator;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand};
 use serde::Serialize;
 
@@ -21,6 +22,8 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_format::conformance::{
     ModuleStatus, ProducerResult, RefusedOutcome, RefusedScore, RobotScore, ScoreStatus,
 };
+use urdd_format::registry::ModuleKind;
+use urdd_format::root_metadata::ConformanceClass;
 
 /// The commands of `urdd conformance`.
 #[derive(Subcommand)]
@@ -81,12 +84,28 @@ pub struct ProducerArguments {
     #[arg(long, value_name = "CLASS", default_value = "core", ignore_case = true)]
     class: Class,
 
+    /// A module that no class asks for, and that the command writes: `loops_module`, for which robots with loops run too, or
+    /// `link_shapes_spheres_module`, with `--class shapes`. May be repeated.
+    #[arg(long = "module", value_name = "NAME", value_parser = on_request())]
+    modules: Vec<ModuleKind>,
+
     /// Runs only this robot, such as `gripper`, or `URD005/link-held-by-two-joints` of those to refuse. May be repeated.
     #[arg(long = "robot", value_name = "NAME")]
     robots: Vec<String>,
 
     #[command(flatten)]
     run: RunArguments,
+}
+
+/// The modules that a producer can be asked for besides those of a class.
+const ON_REQUEST: [ModuleKind; 2] = [ModuleKind::Loops, ModuleKind::LinkShapesSpheres];
+
+fn on_request() -> impl TypedValueParser<Value = ModuleKind> {
+    let names = PossibleValuesParser::new(ON_REQUEST.map(ModuleKind::name));
+    names.map(|name| {
+        let [loops, spheres] = ON_REQUEST;
+        if name == loops.name() { loops } else { spheres }
+    })
 }
 
 /// A score in the log, with the seconds that the command took.
@@ -103,9 +122,17 @@ fn produced(arguments: &ProducerArguments, cancellation: Cancellation) -> Result
     if failed.is_some() && !arguments.robots.is_empty() {
         Err("give --failed or --robot, not both")?;
     }
+    let class: ConformanceClass = arguments.class.into();
+    let spheres = arguments.modules.contains(&ModuleKind::LinkShapesSpheres);
+    if spheres && class != ConformanceClass::Shapes {
+        Err(
+            "--module link_shapes_spheres_module needs --class shapes: spheres stand for its shapes",
+        )?;
+    }
     let plan = Plan {
         command: Template::new(&arguments.run.command, &["urdf", "out"])?,
-        class: arguments.class.into(),
+        class,
+        modules: arguments.modules.clone(),
         robots: failed.unwrap_or_else(|| arguments.robots.clone()),
         limit: arguments.run.limit(),
         skips: arguments.run.skips(2, SKIP_FORM)?,
@@ -171,6 +198,11 @@ fn status(status: ScoreStatus, skipped_since: Option<&str>) -> String {
     }
 }
 
+/// The codes; a module without any says less than the URDF.
+fn named(codes: &[String]) -> String {
+    if codes.is_empty() { "incomplete".to_owned() } else { codes.join(" ") }
+}
+
 fn indented(text: Option<&str>, out: &mut String) -> std::fmt::Result {
     text.into_iter().flat_map(str::lines).try_for_each(|line| writeln!(out, "    {line}"))
 }
@@ -225,7 +257,7 @@ fn one(robot: &RobotScore, out: &mut String) -> std::fmt::Result {
             ModuleStatus::Missing if robot.end != "exit status 0" => {}
             ModuleStatus::Missing => writeln!(out, "  {} is missing{skipped}", module.name)?,
             ModuleStatus::Failed => {
-                writeln!(out, "  {}{skipped}: {}", module.name, module.codes.join(" "))?;
+                writeln!(out, "  {}{skipped}: {}", module.name, named(&module.codes))?;
                 if let Some(first) = &module.first {
                     writeln!(out, "    {first}")?;
                 }

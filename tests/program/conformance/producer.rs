@@ -252,3 +252,64 @@ fn robots_are_run_at_a_time_and_can_be_kept() {
     assert!(kept.join("gripper/gripper/urdd.json").is_file());
     assert!(kept.join("single_link/robots/single_link.urdf").is_file());
 }
+
+/// What is taken out of a robot's URDF+, or changed in it, before the reference generator sees it, is a fault of the URDD.
+#[cfg(unix)]
+#[test]
+fn loops_are_those_that_the_urdf_says() {
+    let run = |robot: &str, change: &str| {
+        let script = format!(
+            "sed '{change}' \"$1\" > \"$1.urdf\" && '{URDD}' generate --modules core \"$1.urdf\" -o \"$2\""
+        );
+        let start = ["producer", "--format", "json", "--module", "loops_module", "--robot", robot];
+        let (status, result) =
+            result(&[&start[..], &["--", "sh", "-c", &script, "sh", "{urdf}", "{out}"]].concat());
+        assert_eq!(result["passed"], status == 0, "{result:#}");
+        assert_eq!(result["robots"].as_array().map(Vec::len), Some(1));
+        let mut modules = result["robots"][0]["modules"].as_array().expect("a list").iter();
+        let module = modules.find(|module| module["name"] == "loops_module").expect("asked for");
+        (status, module["status"].as_str().map(str::to_owned), module["first"].clone())
+    };
+    let without = |element: &str| format!("/<{element} /,/<\\/{element}>/d");
+    let failed = |message: &str| (1, Some("failed".to_owned()), message.into());
+    for robot in ["ball_slide", "four_bar"] {
+        assert_eq!(run(robot, "").0, 0, "{robot}");
+    }
+    assert_eq!(
+        run("four_bar", &without("loop")),
+        failed("no loop between `coupler` and `rocker`, as the URDF says")
+    );
+    assert_eq!(
+        run("four_bar", &without("coupling")),
+        failed("no coupling of `crank_joint` and `wheel_joint`, as the URDF says")
+    );
+    // A plane and its normal hold less than a hinge.
+    assert_eq!(
+        run("four_bar", "s/\"pin\" type=\"revolute\"/\"pin\" type=\"planar\"/"),
+        failed("3 independent DOFs, where the robot has 1")
+    );
+    assert_eq!(run("ball_slide", &without("loop")).1.as_deref(), Some("missing"));
+}
+
+#[test]
+fn spheres_are_asked_for() {
+    let run = |modules: &str, class: &str| {
+        let start = ["producer", "--format", "json", "--class", class, "--robot", "single_link"];
+        let asked = ["--module", "link_shapes_spheres_module"];
+        let command = ["--", URDD, "generate", "--samples", "20", "--modules", modules];
+        conformance(&[&start[..], &asked, &command, &["{urdf}", "-o", "{out}"]].concat())
+    };
+    let result = |modules: &str| -> serde_json::Value {
+        serde_json::from_slice(&run(modules, "shapes").stdout).expect("JSON")
+    };
+    assert_eq!(result("all,link_shapes_spheres")["passed"], true);
+    let missing = result("all");
+    let modules = missing["modules"].as_array().expect("a list");
+    let spheres = modules.iter().find(|module| module["name"] == "link_shapes_spheres_module");
+    let spheres = spheres.expect("asked for");
+    assert_eq!(
+        (&missing["passed"], &spheres["present"], &spheres["of"]),
+        (&false.into(), &0.into(), &1.into())
+    );
+    assert!(stderr(&run("all", "core")).contains("needs --class shapes"));
+}

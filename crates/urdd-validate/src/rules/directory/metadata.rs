@@ -2,6 +2,7 @@ use std::path::Path;
 
 use crate::rules::prelude::*;
 use urdd_directory::file_type::FileType;
+use urdd_format::registry::FIRST_SPEC_VERSION;
 use urdd_format::root_metadata::Source;
 
 declare_rule! {
@@ -166,11 +167,12 @@ fn module_entry_wrong(context: &Context, findings: &mut Findings) -> Option<()> 
 
 fn list_out_of_order(context: &Context, findings: &mut Findings) -> Option<()> {
     let entries = listed_modules(context)?;
-    // Modules of the specification first, others by name.
+    // Modules of 1.0 first, in the table's order; all others by name, those of later versions too.
     let place = |index: usize| {
         let entry = entries.get(index)?;
-        let name = entry.kind.is_none().then_some(entry.entry.name.as_str());
-        Some((entry.kind.is_none(), entry.kind, name))
+        let first = entry.kind.filter(|kind| kind.since() == FIRST_SPEC_VERSION);
+        let name = first.is_none().then_some(entry.entry.name.as_str());
+        Some((first.is_none(), first, name))
     };
     if let Some(index) = (1..entries.len()).find(|index| place(*index) < place(index - 1)) {
         let (before, name) = (&entries[index - 1].entry.name, &entries[index].entry.name);
