@@ -14,7 +14,8 @@ mod geometry;
 #[doc(hidden)]
 pub mod hull;
 mod in_programs;
-mod meaning;
+#[doc(hidden)]
+pub mod meaning;
 pub mod pose;
 mod programs;
 mod rounding;

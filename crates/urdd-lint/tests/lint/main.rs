@@ -17,6 +17,7 @@ mod in_memory;
 mod in_programs;
 mod joined;
 mod large;
+mod meaning;
 mod messages;
 mod parses;
 mod primitives;
