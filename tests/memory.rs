@@ -185,10 +185,10 @@ fn many_levels_take_no_memory() {
     // One name of 32,000 levels in 551 kB: refused.
     let size = pack(&[(["a"; 32_000].join("/"), 420_000)]);
     assert_within(2, size, 2, &["info", "a.zip"], folder.path());
-    // Many names at the limit.
+    // Many names at the limit: they are read, and are nothing of a URDD.
     let deep = |k: usize| (format!("{k:04}/{}", ["a"; 2040].join("/")), 1);
     let size = pack(&(0..2_000).map(deep).collect::<Vec<_>>());
-    assert_within(3, size, 0, &["info", "a.zip"], folder.path());
+    assert_within(3, size, 2, &["info", "a.zip"], folder.path());
     let size = pack(&[("notes".to_owned(), 200 << 20)]);
-    assert_within(1, size, 0, &["info", "a.zip"], folder.path());
+    assert_within(1, size, 2, &["info", "a.zip"], folder.path());
 }

@@ -336,7 +336,8 @@ def report_file() -> str:
         readers += REPORT_READER.format(schema=schema, type=root, command=command, root=f"_{snake(root)}")
         names.append(f"read_{schema}")
     types.later = {(kind, "programs") for kind in ("Urdd", "Finding", "Place")}
-    types.later |= {("WrittenAt", "used_at"), ("WrittenAt", "calls")}
+    types.later |= {("WrittenAt", "used_at"), ("WrittenAt", "calls"), ("Urdd", "not_examined")}
+    types.later |= {("Totals", key) for key in ("passed", "failed", "not_examined")}
     imports = "import json\nfrom dataclasses import dataclass\nfrom typing import Any, Literal, TypeAlias"
     head = HEAD.format(
         title="The reports of a validation and of a comparison, as dataclasses.",

@@ -218,6 +218,8 @@ fn a_text_in_many_variants_is_told_once() {
     let variants =
         "[[robot]]\npath = \"urdf/r.urdf.xacro\"\nargs = { side = [\"a\", \"b\", \"c\", \"d\"] }\n";
     fs::write(root.join("urdd.toml"), variants).expect("written");
+    let taken = format!("{MAIN}<!-- $(arg side) -->\n");
+    fs::write(root.join("urdf/r.urdf.xacro"), taken).expect("written");
     let github = lint(root, "github");
     let told: Vec<&str> = github.lines().filter(|line| line.contains("title=SRC003")).collect();
     assert_eq!(told.len(), 1, "{github}");

@@ -90,7 +90,7 @@ pub fn text(urdf: &Path, settings: &Settings) -> Option<SourceText> {
 }
 
 /// Whether a URDF is what xacro makes.
-pub fn is_same(urdf: &PathBuf, made: &Xml<'_>, settings: &Settings) -> bool {
+pub fn is_same(urdf: &Path, made: &Xml<'_>, settings: &Settings) -> bool {
     let Some(read) = text(urdf, settings) else { return false };
     let xml = Xml::new(&read.text);
     let compared =

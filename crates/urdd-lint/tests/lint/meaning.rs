@@ -1,4 +1,4 @@
-//! What two robots say differently.
+//! What means the same in two URDFs, and what does not.
 
 use urdd_lint::meaning::differences;
 use urdd_xml::Xml;
