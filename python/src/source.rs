@@ -35,6 +35,7 @@ impl Source {
             arguments: self.xacro_arguments,
             time_limit: XacroSettings::seconds(self.xacro_timeout)
                 .map_err(|error| error.to_string())?,
+            ..XacroSettings::default()
         };
         let import = ImportOptions {
             body: self.body,

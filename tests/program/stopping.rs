@@ -336,7 +336,8 @@ fn in_a_batch_others_have_their_results() {
         let one = &report["urdds"][at];
         (one["path"].as_str().unwrap(), one["verdict"].as_str().unwrap(), one["reason"].as_str())
     };
-    let reason = "not finished within 10 s, the limit of --max-time; raise it for a robot that you trust";
+    let reason =
+        "not finished within 10 s, the limit of --max-time; raise it for a robot that you trust";
     assert_eq!(told(1), ("b.urdf.xacro", "unreadable", Some(reason)));
     for (at, path) in [(0, "a.urdf"), (2, "c.urdf")] {
         assert_eq!((told(at).0, told(at).2), (path, None));
