@@ -981,7 +981,7 @@ def _urdd(v: Any) -> Urdd:
         xacro_arguments=v["xacro_arguments"],
         verdict=v["verdict"],
         reason=v["reason"],
-        not_examined=None if v["not_examined"] is None else _not_examined(v["not_examined"]),
+        not_examined=None if v.get("not_examined") is None else _not_examined(v.get("not_examined")),
         size=_size(v["size"]),
         modules=[_module(x) for x in v["modules"]],
         checks=[_check_status(x) for x in v["checks"]],
@@ -1202,9 +1202,9 @@ def _stale_ignore(v: Any) -> StaleIgnore:
 def _totals(v: Any) -> Totals:
     return Totals(
         urdds=int(v["urdds"]),
-        passed=int(v["passed"]),
-        failed=int(v["failed"]),
-        not_examined=int(v["not_examined"]),
+        passed=int(v.get("passed")),
+        failed=int(v.get("failed")),
+        not_examined=int(v.get("not_examined")),
         error=int(v["error"]),
         warning=int(v["warning"]),
         info=int(v["info"]),
