@@ -134,7 +134,7 @@ pub(super) struct ReportArguments {
 enum ReportFormat {
     /// Text for people.
     Human,
-    /// JSON; its schema is `urdd schema show report@1.1.0`.
+    /// JSON; its schema is `urdd schema show report@1.2.0`.
     Json,
     /// SARIF 2.1.0, for GitHub code scanning and editors. Run at the root of the repository.
     Sarif,

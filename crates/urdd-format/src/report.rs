@@ -8,7 +8,7 @@ pub use super::report_of_urdf::{
 use super::types::{module, types};
 
 /// Version of the report's own format.
-pub const REPORT_VERSION: &str = "1.1.0";
+pub const REPORT_VERSION: &str = "1.2.0";
 
 module! {
     /// What a run of `urdd validate` found.

@@ -22,6 +22,16 @@ use super::root_metadata::RootMetadata;
 pub const EARLIER_DIFF_REPORTS: [(&str, &[&str]); 3] =
     [("1.0.0", &["configurations"]), ("1.1.0", &["srdf", "setup", "lost"]), ("1.2.0", &["loops"])];
 
+/// The earlier versions of the report, each with the keys and types that the one after it has more.
+const EARLIER_REPORTS: [(&str, &[&str], &[&str]); 2] = [
+    (
+        "1.0.0",
+        &["programs", "imported", "xacro_arguments"],
+        &["ProgramResult", "ProgramEffect", "Does", "Deed", "ImportedFrom", "ImportedPart"],
+    ),
+    ("1.1.0", &["is_supposed"], &[]),
+];
+
 /// The earlier versions of the result of a validator, each with the keys and types that the one after it has more.
 const EARLIER_VALIDATOR_RESULTS: [(&str, &[&str], &[&str]); 2] = [
     (
@@ -41,8 +51,8 @@ pub enum Subject {
     Module(&'static ModuleSpec),
     /// Output of `urdd validate --format json`.
     Report,
-    /// The same in its first version, without programs.
-    FirstReport,
+    /// The same in an earlier version, by its place in the list of earlier ones.
+    EarlierReport(usize),
     /// Output of `urdd diff --format json`.
     DiffReport,
     /// The same in an earlier version, by its place in [`EARLIER_DIFF_REPORTS`].
@@ -127,7 +137,8 @@ impl Subject {
     pub fn all() -> impl Iterator<Item = Subject> {
         let modules = modules().iter().map(Subject::Module);
         let earlier = (0..EARLIER_DIFF_REPORTS.len()).map(Subject::EarlierDiffReport);
-        let reports = [Subject::FirstReport, Subject::Report].into_iter().chain(earlier);
+        let reports = (0..EARLIER_REPORTS.len()).map(Subject::EarlierReport);
+        let reports = reports.chain([Subject::Report]).chain(earlier);
         std::iter::once(Subject::RootMetadata)
             .chain(modules)
             .chain(reports)
@@ -155,7 +166,7 @@ impl Subject {
     pub fn name(self) -> &'static str {
         match self {
             Subject::RootMetadata => "root_metadata",
-            Subject::Report | Subject::FirstReport => "report",
+            Subject::Report | Subject::EarlierReport(_) => "report",
             Subject::DiffReport | Subject::EarlierDiffReport(_) => "diff_report",
             Subject::ProducerResult => "producer_result",
             Subject::ValidatorResult | Subject::EarlierValidatorResult(_) => "validator_result",
@@ -166,7 +177,8 @@ impl Subject {
     /// Version of its format; `unversioned` for a legacy module without one.
     pub fn version(self) -> &'static str {
         match self {
-            Subject::RootMetadata | Subject::FirstReport => "1.0.0",
+            Subject::RootMetadata => "1.0.0",
+            Subject::EarlierReport(place) => EARLIER_REPORTS[place].0,
             Subject::EarlierValidatorResult(place) => EARLIER_VALIDATOR_RESULTS[place].0,
             Subject::EarlierDiffReport(place) => EARLIER_DIFF_REPORTS[place].0,
             Subject::Report => REPORT_VERSION,
@@ -189,11 +201,9 @@ impl Subject {
             Subject::RootMetadata => schemars::schema_for!(RootMetadata),
             Subject::Report => schemars::schema_for!(Report),
             Subject::DiffReport => schemars::schema_for!(DiffReport),
-            Subject::FirstReport => without(
-                schemars::schema_for!(Report),
-                &["programs", "imported", "xacro_arguments"],
-                &["ProgramResult", "ProgramEffect", "Does", "Deed", "ImportedFrom", "ImportedPart"],
-            ),
+            Subject::EarlierReport(place) => {
+                before(schemars::schema_for!(Report), &EARLIER_REPORTS[place..])
+            }
             Subject::EarlierDiffReport(place) => {
                 let later = EARLIER_DIFF_REPORTS[place..].iter().flat_map(|(_, lists)| *lists);
                 let later: Vec<&str> = later.copied().collect();
@@ -202,12 +212,7 @@ impl Subject {
             Subject::ProducerResult => schemars::schema_for!(ProducerResult),
             Subject::ValidatorResult => schemars::schema_for!(ValidatorResult),
             Subject::EarlierValidatorResult(place) => {
-                let later = &EARLIER_VALIDATOR_RESULTS[place..];
-                let keys: Vec<&str> =
-                    later.iter().flat_map(|(_, keys, _)| *keys).copied().collect();
-                let types: Vec<&str> =
-                    later.iter().flat_map(|(_, _, types)| *types).copied().collect();
-                without(schemars::schema_for!(ValidatorResult), &keys, &types)
+                before(schemars::schema_for!(ValidatorResult), &EARLIER_VALIDATOR_RESULTS[place..])
             }
             Subject::Module(spec) => spec.schema(),
         };
@@ -234,6 +239,13 @@ impl Subject {
         // `{:#}` writes indented JSON; unlike `to_string_pretty`, it cannot fail.
         format!("{:#}\n", self.schema(variant))
     }
+}
+
+/// The schema before the versions after these, each with the keys and types that the one after it has more.
+fn before(schema: Schema, later: &[(&str, &[&str], &[&str])]) -> Schema {
+    let keys: Vec<&str> = later.iter().flat_map(|(_, keys, _)| *keys).copied().collect();
+    let types: Vec<&str> = later.iter().flat_map(|(_, _, types)| *types).copied().collect();
+    without(schema, &keys, &types)
 }
 
 /// The schema before these keys and types were added.

@@ -4,6 +4,7 @@
 mod gazebo;
 mod meshes;
 mod parts;
+mod read_on;
 mod table;
 mod three;
 mod usd;
