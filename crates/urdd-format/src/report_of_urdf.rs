@@ -62,6 +62,8 @@ types! {
         pub program: String,
         /// What it does.
         pub does: Deed,
+        /// Whether the program refuses the file for something else before. It is so once that is mended.
+        pub is_supposed: bool,
     }
 
     /// What an import made of a description that is no URDF.

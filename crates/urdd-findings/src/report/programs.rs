@@ -209,39 +209,26 @@ fn causes<'u>(
     urdd: &'u Urdd,
     program: &'u ProgramResult,
 ) -> (Cause<'u>, Option<(&'u str, &'u Place)>) {
-    let mut findings: Vec<_> = findings(urdd, program).collect();
-    let refusals = program.effects.iter().filter(|one| one.does >= Deed::Refuses);
-    let first = refusals.clone().find(|effect| !effect.is_supposed);
-    let is_only = refusals.count() < 2;
-    let is_there = |(_, place): &(&str, &Place)| {
-        is_only
-            || first.is_some_and(|first| place.line == first.line && place.column == first.column)
-    };
-    let is_near = |(_, place): &(&str, &Place)| first.is_some_and(|first| place.line == first.line);
-    let own = findings.iter().position(is_there).or_else(|| findings.iter().position(is_near));
-    let cause = match (own, first) {
-        (Some(own), _) => {
-            let (code, place) = findings.remove(own);
-            Cause::Finding(code, place)
-        }
-        (None, Some(first)) => Cause::Effect(first),
-        (None, None) => Cause::Unknown,
-    };
-    (cause, findings.first().copied())
-}
-
-/// The findings that say why a program does the worst that it does, and their places.
-fn findings<'u>(
-    urdd: &'u Urdd,
-    program: &'u ProgramResult,
-) -> impl Iterator<Item = (&'u str, &'u Place)> {
     // What follows from a finding is among its related places.
     let places = urdd.findings.iter().flat_map(|finding| {
         let all = finding.places.iter().flat_map(|place| [place].into_iter().chain(&place.related));
         all.map(move |place| (finding.code.as_str(), place))
     });
-    let is_why = move |does: &Does| does.program == program.program && does.does >= Deed::Refuses;
-    places.filter(move |(_, place)| place.programs.iter().any(is_why))
+    let finding = |is_supposed: bool| {
+        let is_why = |does: &Does| {
+            let is_its = does.program == program.program && does.is_supposed == is_supposed;
+            is_its && does.does >= Deed::Refuses
+        };
+        places.clone().find(|(_, place)| place.programs.iter().any(is_why))
+    };
+    let (first, next) = (finding(false), finding(true));
+    let is_first = |effect: &&ProgramEffect| effect.does >= Deed::Refuses && !effect.is_supposed;
+    let effect = || program.effects.iter().find(is_first);
+    let cause = match first {
+        Some((code, place)) => Cause::Finding(code, place),
+        None => effect().map_or(Cause::Unknown, Cause::Effect),
+    };
+    (cause, next)
 }
 
 /// The finding of it; where there is none, what the program says. And what would be next.

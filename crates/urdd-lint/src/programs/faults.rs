@@ -74,7 +74,8 @@ impl Faulty {
         for said in other.said {
             match self.said.iter_mut().find(|known| known.program == said.program) {
                 Some(known) if known.effect.deed < said.effect.deed => *known = said,
-                Some(_) => {}
+                // What is refused first is no supposition.
+                Some(known) => known.effect.is_supposed &= said.effect.is_supposed,
                 None => self.said.push(said),
             }
         }
@@ -100,8 +101,11 @@ impl Faulty {
 
     /// What programs do, as places of findings have it.
     pub fn does(&self) -> Vec<Does> {
-        let does =
-            |one: &Said| Does { program: one.program.id().to_owned(), does: one.effect.deed };
+        let does = |one: &Said| Does {
+            program: one.program.id().to_owned(),
+            does: one.effect.deed,
+            is_supposed: one.effect.is_supposed,
+        };
         self.said.iter().map(does).collect()
     }
 

@@ -127,7 +127,7 @@ impl MeshFacts {
 /// Why a program does not read the format of a name. Some formats are for others, and some for hardly any program.
 pub fn format_fault(name: &str) -> Fault {
     const KNOWN: [&str; 7] = ["stl", "obj", "dae", "gltf", "glb", "msh", "vtk"];
-    let file = name.rsplit('/').next().unwrap_or_default();
+    let file = name.trim().rsplit('/').next().unwrap_or_default();
     let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending);
     match KNOWN.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
         true => FORMAT,
