@@ -292,7 +292,7 @@ export interface Finding {
   message: string;
   count: number;
   /** What programs do because of it. */
-  programs: { program: string; does: Deed }[];
+  programs: { program: string; does: Deed; is_supposed: boolean }[];
   [key: string]: unknown;
 }
 

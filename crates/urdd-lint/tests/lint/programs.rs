@@ -330,16 +330,21 @@ fn moved(inside: &str) -> (tempfile::TempDir, std::path::PathBuf) {
     (folder, file)
 }
 
-/// An inertia that no body has, beside a mesh of this name.
-fn impossible(mesh: &str) -> String {
+/// The same with an inertia that no body has, behind a collision with a mesh of this name.
+fn impossible(mesh: &str) -> (tempfile::TempDir, std::path::PathBuf) {
     let inertial = r#"<inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="9"/></inertial>"#;
-    format!(r#"{inertial}<collision><geometry><mesh filename="{mesh}"/></geometry></collision>"#)
+    let (folder, file) = moved(inertial);
+    let shape = format!(r#"<collision><geometry><mesh filename="{mesh}"/></geometry></collision>"#);
+    let text = fs::read_to_string(&file).unwrap();
+    let base = r#"izz="0.1"/></inertial>"#;
+    fs::write(&file, text.replacen(base, &format!("{base}{shape}"), 1)).unwrap();
+    (folder, file)
 }
 
 #[test]
 fn a_mesh_that_a_program_does_not_take_hides_no_other_fault_from_it() {
     let found = |mesh: &str| {
-        let (_folder, file) = moved(&impossible(mesh));
+        let (_folder, file) = impossible(mesh);
         let urdf = linted(&file, &LintSettings::default()).report.urdds.remove(0);
         let finding = urdf.findings.into_iter().find(|one| one.message.contains("inertia"));
         let finding = finding.unwrap();
@@ -357,7 +362,7 @@ fn a_mesh_that_a_program_does_not_take_hides_no_other_fault_from_it() {
 
 #[test]
 fn what_a_program_refuses_first_is_why_and_the_next_is_what_it_would_refuse_then() {
-    let (_folder, file) = moved(&impossible("package://arm/box.obj"));
+    let (_folder, file) = impossible("package://arm/box.obj");
     let mut settings = LintSettings::default();
     settings.report.programs = vec!["mujoco".to_owned()];
     let run = linted(&file, &settings);
@@ -391,9 +396,6 @@ fn a_mesh_of_a_format_that_few_programs_read_is_a_finding() {
             assert!(does.any(|one| one.program == program), "{name} {program}");
         }
     }
-    // What one program has for itself is no fault.
-    let (_folder, file) = moved(&impossible("box.obj").replace("izz=\"9\"", "izz=\"0.1\""));
-    assert_eq!(linted(&file, &LintSettings::default()).report.urdds.remove(0).findings, []);
 }
 
 /// Tried in Drake 1.51.1, PyBullet 3.2.7 and Pinocchio 4.1.0.
