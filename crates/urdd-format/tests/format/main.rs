@@ -55,7 +55,7 @@ fn read(subject: Subject, value: &Value) -> Result<Document, serde_json::Error> 
             RootMetadata::deserialize(value).map(|m| Document::Root(Box::new(m)))
         }
         Subject::Module(spec) => spec.read(value).map(Document::Module),
-        Subject::Report | Subject::FirstReport => {
+        Subject::Report | Subject::EarlierReport(_) => {
             Report::deserialize(value).map(|r| Document::Report(Box::new(r)))
         }
         Subject::DiffReport | Subject::EarlierDiffReport(_) => {
