@@ -337,6 +337,7 @@ def report_file() -> str:
         names.append(f"read_{schema}")
     types.later = {(kind, "programs") for kind in ("Urdd", "Finding", "Place")}
     types.later |= {("WrittenAt", "used_at"), ("WrittenAt", "calls"), ("Urdd", "not_examined")}
+    types.later |= {("Does", "is_supposed"), ("ProgramEffect", "is_supposed")}
     types.later |= {("Totals", key) for key in ("passed", "failed", "not_examined")}
     imports = "import json\nfrom dataclasses import dataclass\nfrom typing import Any, Literal, TypeAlias"
     head = HEAD.format(

@@ -1,6 +1,7 @@
 //! Reads the files that commands are given: URDDs, SRDFs, and advice on those that are something else. Edits a module of a
 //! URDD: reads the robot, asks for the changed files, and replaces them atomically.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -10,7 +11,7 @@ use super::output::{self, Failure, about, one_line, shown};
 use super::watch::Watch;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA};
-use urdd_directory::file_type::{FileType, is_archive};
+use urdd_directory::file_type::{FileType, HEAD, foreign, is_archive};
 use urdd_directory::limits::{MAX_DOCUMENT_BYTES, MAX_SRDF_BYTES};
 use urdd_directory::listing::ReadError;
 use urdd_directory::metadata::{Files, Replacement};
@@ -115,10 +116,18 @@ pub fn advice(error: &DiscoverError) -> String {
 }
 
 /// What a file is: by its content, and by its name where that does not say.
-fn of_file(path: &Path) -> &'static str {
+fn of_file(path: &Path) -> String {
     let by_content = RobotFile::at(path);
-    let by_name = FileType::of(path).filter(|_| by_content.is_none());
-    match (by_content, by_name) {
+    let by_name = FileType::of(path);
+    let is_other =
+        !matches!(by_content, Some(RobotFile::Imported(_))) && by_name != Some(FileType::Document);
+    let mut head = Vec::new();
+    let read = regular::open(path).map(|file| file.take(HEAD).read_to_end(&mut head));
+    if let Some(foreign) = foreign(&head).filter(|_| is_other && matches!(read, Ok(Ok(_)))) {
+        return foreign.to_string();
+    }
+    let by_name = by_name.filter(|_| by_content.is_none());
+    let known = match (by_content, by_name) {
         (Some(RobotFile::Urdf), _) => {
             "this is a URDF; `urdd generate` makes a URDD of it, `urdd lint` checks it"
         }
@@ -145,7 +154,8 @@ fn of_file(path: &Path) -> &'static str {
             "this is a file, but neither a URDF nor a URDD (a folder that holds urdd.json or the module folders, or a zip \
              archive of one)"
         }
-    }
+    };
+    known.to_owned()
 }
 
 /// Maximum number of attempts while another program writes to the URDD.

@@ -11,6 +11,7 @@ use clap::Args;
 use super::arguments::{LoopsArguments, PackageArguments, RobotArguments, XacroArguments, split};
 use super::configurations::Lines;
 use super::generate_output::{FAILED, Printer, ResultFormat};
+use super::inputs::advice;
 use super::output::{self, Failure, one_line};
 use super::watch::{LimitArguments, Watch, Work};
 use urdd_directory::cancellation::Cancellation;
@@ -356,7 +357,7 @@ fn named(paths: &[PathBuf], settings: &Settings) -> Result<HashMap<PathBuf, Vec<
 fn add_folder(path: &Path, settings: &Settings, collection: &Collection) -> Result<(), String> {
     match collection.add(path) {
         Err(DiscoverError::NoUrdd { .. }) if path.is_dir() => {}
-        other => return other.map_err(|error| error.to_string()),
+        other => return other.map_err(|error| advice(&error)),
     }
     let batch = robots::found(&[path.to_owned()], settings).map_err(|error| match error {
         BatchError::Empty { path } => {

@@ -16,6 +16,7 @@ mod diff;
 mod directory_sources;
 mod export;
 mod file_types;
+mod foreign;
 mod fuzz_findings;
 mod generate;
 mod imports;

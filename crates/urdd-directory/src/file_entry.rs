@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 use crate::root::{ReadError, Root};
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::registry::{FIRST_SPEC_VERSION, ModuleKind};
+use urdd_xml::foreign::LFS_POINTER;
 
 /// How a file differs from its stated size and hash.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -55,8 +56,7 @@ pub fn of_bytes(bytes: &[u8]) -> (u64, String) {
     (bytes.len() as u64, hexadecimal(&Sha256::digest(bytes)))
 }
 
-/// Prefix of every Git LFS pointer. Pointers are shorter than [`LONGEST_LFS_POINTER`].
-const LFS_POINTER: &[u8] = b"version https://git-lfs";
+/// Pointers of Git LFS are shorter.
 const LONGEST_LFS_POINTER: u64 = 1024;
 
 /// Larger files are unlikely to be text with converted line endings. If their size differs, they are not hashed.

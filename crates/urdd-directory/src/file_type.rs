@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use FileType::{Archive, Document, Mjcf, Sdf, Srdf, Urdf, Usd, Xacro, Xml};
 
 use crate::regular;
+use urdd_xml::foreign::signature;
+pub use urdd_xml::foreign::{Foreign, foreign};
 use urdd_xml::root_name;
 
 /// What the ending of a file's name says.
@@ -143,20 +145,6 @@ fn is_usd(bytes: &[u8]) -> bool {
 /// How a zip archive begins: with an entry, or with its end where it has none.
 const ZIP: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
 
-/// How other files begin that are not text, whatever text is in them.
-const BINARY: [&[u8]; 10] = [
-    b"glTF",
-    b"Kaydara FBX",
-    b"BLENDER",
-    b"\x89PNG",
-    b"\xff\xd8\xff",
-    b"%PDF-",
-    b"\x1f\x8b",
-    b"BZh",
-    b"\xfd7zXZ",
-    b"7z\xbc\xaf",
-];
-
 fn begins(head: &[u8], signatures: &[&[u8]]) -> bool {
     signatures.iter().any(|signature| head.starts_with(signature))
 }
@@ -193,7 +181,7 @@ impl RobotFile {
         }
         // By its byte order mark, if it has one. What is stored in a binary file is not its outermost element.
         let (text, ..) = encoding_rs::UTF_8.decode(head);
-        let root = root_name(&text).filter(|_| !begins(head, &BINARY));
+        let root = root_name(&text).filter(|_| signature(head).is_none());
         if let Some(format) = root.and_then(Format::of_root) {
             return Some(RobotFile::Imported(format));
         }

@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use crate::schema_check::SchemaViolation;
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::file_type::{Foreign, foreign};
 use urdd_directory::json::{self, JsonDocument};
 use urdd_directory::limits::MAX_URDF_BYTES;
 use urdd_directory::position;
@@ -263,6 +264,8 @@ pub struct CarriedUrdf {
     pub text: String,
     /// Byte offset of the first invalid UTF-8, if any.
     pub not_utf8_at: Option<usize>,
+    /// What it is instead, if it is not UTF-8 and no URDF.
+    pub foreign: Option<Foreign>,
 }
 
 /// Why the source URDF is not available.
@@ -339,6 +342,7 @@ impl CarriedUrdf {
             path: path.to_owned(),
             text: String::from_utf8_lossy(bytes).into_owned(),
             not_utf8_at,
+            foreign: not_utf8_at.and_then(|_| foreign(bytes)),
         })
     }
 }

@@ -52,6 +52,8 @@ types! {
         pub makes: Option<String>,
         /// Whether the program does so with every robot, or because of another fault: nothing is wrong there.
         pub is_usual: bool,
+        /// Whether the program refuses the file for something else before. It is so once that is mended.
+        pub is_supposed: bool,
     }
 
     /// What a program does because of a finding.
@@ -60,6 +62,8 @@ types! {
         pub program: String,
         /// What it does.
         pub does: Deed,
+        /// Whether the program refuses the file for something else before. It is so once that is mended.
+        pub is_supposed: bool,
     }
 
     /// What an import made of a description that is no URDF.

@@ -31,7 +31,7 @@ const EARLIER_REPORTS: EarlierVersions<2> = [
     ),
     (
         "1.1.0",
-        &["not_examined", "passed", "failed", "used_at", "calls"],
+        &["not_examined", "passed", "failed", "used_at", "calls", "is_supposed"],
         &["NotExamined", "Cause", "MacroPlace"],
     ),
 ];

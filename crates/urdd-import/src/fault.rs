@@ -11,7 +11,7 @@ use urdd_source::gate::ImageFault;
 
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ImportFault {
-    #[error("not well-formed XML: {0}")]
+    #[error("{0}")]
     NotXml(String),
     #[error(transparent)]
     File(#[from] Unreachable),

@@ -52,8 +52,8 @@ pub const fn in_programs(code: Code) -> &'static str {
             In examples of it:\n\n- the STL is text: MuJoCo refuses the robot; PyBullet leaves out the collision.\n- the STL is cut \
             off: MuJoCo and Pinocchio refuse the robot; PyBullet leaves out the collision.",
         Code::LNT035 => "\
-            In an example, the mesh cannot be read: this is a Git LFS pointer instead of the mesh (run `git lfs pull`), which is \
-            not supported: MuJoCo and Pinocchio refuse the robot; PyBullet and Isaac and Newton leave out the collision.",
+            In an example, the mesh cannot be read: this is a Git LFS pointer: `git lfs pull` fetches the file that it stands for: \
+            MuJoCo and Pinocchio refuse the robot; PyBullet and Isaac and Newton leave out the collision.",
         Code::LNT040 => "\
             In examples of it:\n\n- `<inertial>` has no ixz: MuJoCo refuses the robot; ROS, Gazebo and Pinocchio leave out the \
             inertial.\n- the joint has no `<limit>`: ROS, Gazebo, Pinocchio and PyBullet refuse the robot; MuJoCo reads `no limit`; \

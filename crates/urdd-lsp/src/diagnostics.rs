@@ -226,8 +226,7 @@ pub fn not_well_formed(snapshot: &Snapshot) -> Option<Found> {
     let offset = snapshot.text.content_start() + error.offset(text);
     let end = snapshot.text.line_end(offset).max(offset);
     let range = snapshot.text.range(offset..end);
-    let words = error.words(text);
-    let message = format!("not well-formed XML: {words}");
+    let message = error.sentence(text);
     Some(diagnostic(range, DiagnosticSeverity::ERROR, "", &message, (None, None)).into())
 }
 

@@ -1,5 +1,6 @@
 //! What a program does because of something in a file, the part of the robot that it does it to, and what materials look like.
 
+use std::collections::HashSet;
 use std::fmt::Display;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -24,15 +25,29 @@ pub struct Effect {
     pub fault: Fault,
     /// What it makes of the part, if it reads it otherwise: `1`, `fixed`.
     pub makes: Option<String>,
+    /// Whether the program does so only once what it refuses before is mended: its reader goes on as if it were.
+    pub is_supposed: bool,
 }
 
 /// Maximum number of effects that are kept of a program; the rest are counted. As many places are kept of a finding.
 pub const KEPT: usize = 10_000;
 
-/// What a program does with a file, as its reader finds it out. What ends reading is always among what is kept.
+/// What a program does with a file, as its reader finds it out. What the program refuses first is always among what is kept.
+///
+/// A reader goes on behind a refusal as if it were mended, as far as what comes then does not depend on how it is mended.
+/// [`Effects::refuse_mendable`] is for a value that nothing else needs. After [`Effects::refuse`] the rest of the part is
+/// not read: whoever reads a robot's parts one by one goes on with the next, and asks [`Effects::are_read`] before what
+/// needs all of them.
 #[derive(Debug, Clone, Default)]
 pub struct Effects {
     kept: Vec<Effect>,
+    /// What the program does that refuses the file, or crashes: the first such effect.
+    end: Option<Deed>,
+    /// The number of parts that were not read to their end.
+    unread_parts: usize,
+    /// Where something is refused, once a place, and names that nothing has, once a name.
+    refused: HashSet<usize>,
+    unknown: HashSet<Fault>,
     /// Number of the others.
     cut: usize,
     /// The worst of the others, and of those of them that are not usual.
@@ -43,22 +58,23 @@ pub struct Effects {
 #[derive(Clone, Copy)]
 pub(crate) struct Mark(usize, usize);
 
-/// The file is refused: reading ends.
+/// A part of the file, or all of it, is refused, and not read further.
 pub struct Refused;
 
-/// What a reader's functions give: nothing more where the program stops.
+/// What a reader's functions give: nothing where a part is not read to its end.
 pub type Reading<T> = Result<T, Refused>;
 
 impl Effects {
     /// The worst that happens; none if all is read as it is written.
     pub fn worst(&self) -> Option<Deed> {
-        self.kept.iter().map(|effect| effect.deed).max().max(self.worst_cut[0])
+        self.end.or_else(|| self.kept.iter().map(|effect| effect.deed).max().max(self.worst_cut[0]))
     }
 
-    /// The worst that is not what the program does with every such part.
+    /// The worst that is not what the program does with every such part. A refusal is never usual.
     pub fn worst_unusual(&self) -> Option<Deed> {
         let unusual = self.kept.iter().filter(|effect| !effect.fault.is_usual());
-        unusual.map(|effect| effect.deed).max().max(self.worst_cut[1])
+        let worst = || unusual.map(|effect| effect.deed).max().max(self.worst_cut[1]);
+        self.end.or_else(worst)
     }
 
     /// What is kept.
@@ -100,28 +116,68 @@ impl Effects {
 
     /// Whether the program has a robot in the end.
     pub fn loads(&self) -> bool {
-        self.worst().is_none_or(|worst| worst < Deed::Refuses)
+        self.end.is_none()
+    }
+
+    /// Whether what the program refuses is that files are not there, or not for it, and nothing else.
+    pub(crate) fn lacks_files_alone(&self) -> bool {
+        let is_of_files = |fault: &Fault| {
+            matches!(fault, Fault::NotFound(_) | Fault::Mesh(_) | Fault::ForOthers(_))
+        };
+        self.kept.iter().all(|effect| effect.deed < Deed::Refuses || is_of_files(&effect.fault))
+    }
+
+    /// How many parts were not read to their end up to here.
+    pub(crate) fn unread_parts(&self) -> usize {
+        self.unread_parts
+    }
+
+    /// Whether all parts are read that came after so many were not; `Refused` if not: what needs them is not known.
+    pub(crate) fn are_read(&self, since: usize) -> Reading<()> {
+        if self.unread_parts > since { Err(Refused) } else { Ok(()) }
     }
 
     fn add(&mut self, deed: Deed, at: usize, part: Part, fault: Fault, makes: Option<&str>) {
-        if self.kept.len() >= KEPT && deed < Deed::Refuses {
+        let is_supposed = self.end.is_some();
+        if deed >= Deed::Refuses {
+            self.end.get_or_insert(deed);
+            let is_unknown = matches!(fault, Fault::Unknown { .. });
+            if !self.refused.insert(at) || is_unknown && !self.unknown.insert(fault.clone()) {
+                return;
+            }
+        }
+        if self.kept.len() >= KEPT && (deed < Deed::Refuses || is_supposed) {
             self.cut += 1;
             let unusual = Some(deed).filter(|_| !fault.is_usual());
             self.worst_cut = [self.worst_cut[0].max(Some(deed)), self.worst_cut[1].max(unusual)];
             return;
         }
         let makes = makes.map(|makes| short::name(makes).into_owned());
-        self.kept.push(Effect { deed, at, part, fault, makes });
+        self.kept.push(Effect { deed, at, part, fault, makes, is_supposed });
     }
 
+    /// The file is refused, and the part not read further.
     pub(crate) fn refuse<T>(&mut self, at: impl At, fault: Fault) -> Reading<T> {
-        self.add(Deed::Refuses, at.at(), Part::default(), fault, None);
+        self.refuse_mendable(at, fault);
+        self.unread_parts += 1;
         Err(Refused)
     }
 
+    /// The file is refused for something that nothing else needs: reading goes on as if it were mended.
+    pub(crate) fn refuse_mendable(&mut self, at: impl At, fault: Fault) {
+        self.add(Deed::Refuses, at.at(), Part::default(), fault, None);
+    }
+
+    /// As [`Effects::refuse`], of a program that crashes.
     pub(crate) fn crash<T>(&mut self, at: impl At, fault: Fault) -> Reading<T> {
-        self.add(Deed::Crashes, at.at(), Part::default(), fault, None);
+        self.crash_mendable(at, fault);
+        self.unread_parts += 1;
         Err(Refused)
+    }
+
+    /// As [`Effects::refuse_mendable`], of a program that crashes.
+    pub(crate) fn crash_mendable(&mut self, at: impl At, fault: Fault) {
+        self.add(Deed::Crashes, at.at(), Part::default(), fault, None);
     }
 
     pub(crate) fn drop(&mut self, at: impl At, part: impl Into<Part>, fault: Fault) {

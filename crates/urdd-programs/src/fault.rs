@@ -74,9 +74,20 @@ pub enum Fault {
 /// A mesh in a format that a program does not know.
 pub const FORMAT: Fault = Fault::ForOthers("the mesh is in a format that the program cannot read");
 
+/// A mesh in a format that hardly any program knows.
+pub const RARE_FORMAT: Fault =
+    Fault::Mesh("the mesh is in a format that few programs for robots read");
+
+/// A mesh in a package that is not here: other programs may know where it is.
+pub const NO_PACKAGE: Fault =
+    Fault::ForOthers("the package of the mesh is not here, and the program needs it");
+
 /// A COLLADA file that only lenient readers of XML read.
 pub const BEGINS_LATE: Fault =
     Fault::Mesh("white space is before `<?xml` in the file of the mesh, where XML has none");
+
+/// The same.
+pub const HAS_MORE: Fault = Fault::Mesh("more is behind the outermost element of the mesh's file");
 
 /// A link without mass, which Gazebo leaves out.
 pub const MASSLESS: Fault = Fault::Inertia("a link without mass is left out, with all below");
@@ -222,6 +233,7 @@ impl Fault {
             }
             Fault::Limits(_) => "write limits that the joint has",
             Fault::NotFound(_) => "mend its name, or put the file there",
+            fault if *fault == RARE_FORMAT => "export it as STL, OBJ or COLLADA",
             Fault::Mesh(_) | Fault::ForOthers(_) => {
                 "export the mesh in another format, or mend its file"
             }

@@ -38,7 +38,7 @@ mod prelude {
     pub use crate::effect::{At, Effects, Look, Part, Reading};
     pub use crate::fault::*;
     pub use crate::file::{About, File};
-    pub use crate::mesh::{Mesh, MeshFacts};
+    pub use crate::mesh::{Mesh, MeshFacts, format_fault};
     pub use crate::number::{is_space, istream, pieces, strtod, whole};
     pub(crate) use crate::tinyxml;
     pub use crate::tree::{Attribute, Node};

@@ -30,7 +30,7 @@ pub fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let textures = textures(&model);
     for kind in ["collision", "visual"] {
         for (name, link) in model.links.iter().filter(|(name, _)| is_reached.contains(*name)) {
-            PinocchioReader { file, effects }.shapes(kind, name, link, &textures)?;
+            PinocchioReader { file, effects }.shapes(kind, name, link, &textures);
         }
     }
     Ok(())
@@ -74,7 +74,7 @@ impl PinocchioReader<'_> {
                     let fault = Fault::Tree("the joint's parent comes after its child");
                     return self.effects.refuse(joint.node, fault);
                 }
-                self.joint(joint)?;
+                self.joint(joint);
                 if on_path.contains(link) {
                     return self.effects.crash(joint.node, Fault::Tree("the links are in a loop"));
                 }
@@ -110,9 +110,9 @@ impl PinocchioReader<'_> {
     }
 
     /// The limits that a joint cannot have.
-    fn joint(&mut self, joint: &Joint<'_>) -> Reading<()> {
+    fn joint(&mut self, joint: &Joint<'_>) {
         if !matches!(joint.kind, "revolute" | "continuous" | "prismatic") {
-            return Ok(());
+            return;
         }
         for (element, attribute) in
             [("limit", "effort"), ("dynamics", "friction"), ("limit", "velocity")]
@@ -122,10 +122,10 @@ impl PinocchioReader<'_> {
                 continue;
             };
             if number(&value.value) < 0.0 {
-                return self.effects.refuse(value, Fault::range(value, "must not be negative"));
+                let fault = Fault::range(value, "must not be negative");
+                self.effects.refuse_mendable(value, fault);
             }
         }
-        Ok(())
     }
 
     /// What it does not read of a joint, or otherwise.
@@ -159,21 +159,21 @@ impl PinocchioReader<'_> {
         name: &str,
         link: &Link<'_>,
         materials: &HashMap<&str, Node<'_>>,
-    ) -> Reading<()> {
+    ) {
         let (kept, is_all) = link.kept[usize::from(kind == "collision")];
         let part = Part::of("link", name);
         if !is_all {
             for (shape, part) in part.shapes(link.node, kind).take(kept) {
                 self.effects.drop(shape, part, Fault::Way("another one of the link is faulty"));
             }
-            return Ok(());
+            return;
         }
         let [capsules, convex] = ["capsule", "convex"].map(|kind| Entries::of(link.node, kind));
         for (shape, part) in part.shapes(link.node, kind) {
             let form = shape.child("geometry").and_then(|geometry| geometry.children().next());
             let Some(form) = form else { continue };
             if form.name() == "mesh" {
-                self.mesh(form)?;
+                self.mesh(form);
             }
             let unnamed = match form.name() {
                 "cylinder" => capsules.unnamed(shape),
@@ -181,56 +181,55 @@ impl PinocchioReader<'_> {
                 _ => None,
             };
             if let Some(entry) = unnamed {
-                return self.effects.refuse(entry, Fault::Missing("name"));
+                self.effects.refuse_mendable(entry, Fault::Missing("name"));
             }
             let own = shape.child("material").filter(|_| kind == "visual");
             let name = own.and_then(|material| material.value("name")).unwrap_or_default();
             let material = materials.get(name).copied().or(own.filter(|_| name.is_empty()));
             let texture = material.and_then(|material| material.child("texture"));
             if let Some(image) = texture.and_then(|texture| texture.attribute("filename")) {
-                self.scheme(image)?;
-                if !image.value.is_empty() && matches!(self.file.mesh(&image.value), Mesh::Missing)
-                {
-                    self.effects.drop(image, part.inside("material"), Fault::NotFound("texture"));
+                match scheme_fault(image) {
+                    Some(fault) => self.effects.refuse_mendable(image, fault),
+                    None if image.value.is_empty() => {}
+                    None if matches!(self.file.mesh(&image.value), Mesh::Missing) => {
+                        let fault = Fault::NotFound("texture");
+                        self.effects.drop(image, part.inside("material"), fault);
+                    }
+                    None => {}
                 }
             }
         }
-        Ok(())
     }
 
-    /// Refuses a name of a file that is too long, or has another scheme than those that it knows.
-    fn scheme(&mut self, file: &Attribute<'_>) -> Reading<()> {
-        const LONGEST: usize = 255;
-        if file.value.split('/').any(|name| name.len() > LONGEST) {
-            let why = "its name has a part of more than 255 bytes";
-            return self.effects.refuse(file, Fault::Mesh(why));
-        }
-        match file.value.split_once("://") {
-            Some((scheme, _)) if !matches!(scheme, "package" | "model" | "file") => {
-                let why = "the scheme of its name is none of package, model and file";
-                self.effects.refuse(file, Fault::ForOthers(why))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    fn mesh(&mut self, mesh: Node<'_>) -> Reading<()> {
-        let Some(filename) = mesh.attribute("filename") else { return Ok(()) };
-        self.scheme(filename)?;
-        if filename.value.is_empty() {
-            return self.effects.refuse(filename, Fault::Empty("filename"));
-        }
+    fn mesh(&mut self, mesh: Node<'_>) {
+        let Some(filename) = mesh.attribute("filename") else { return };
         let fault = match self.file.mesh(&filename.value) {
-            Mesh::Unknown => return Ok(()),
-            Mesh::Missing => Fault::NotFound("mesh"),
+            _ if scheme_fault(filename).is_some() => scheme_fault(filename),
+            _ if filename.value.is_empty() => Some(Fault::Empty("filename")),
+            Mesh::Missing => Some(Fault::NotFound("mesh")),
+            Mesh::NoPackage => Some(NO_PACKAGE),
             Mesh::Found(facts) if !is_read(&filename.value, &facts) => match facts.content() {
-                None if facts.is_of_no_format() => FORMAT,
-                _ => Fault::Mesh("the mesh cannot be read"),
+                None if facts.is_of_no_format() => Some(format_fault(&filename.value)),
+                _ => Some(Fault::Mesh("the mesh cannot be read")),
             },
-            Mesh::Found(_) => return Ok(()),
+            Mesh::Unknown | Mesh::Found(_) => None,
         };
-        self.effects.refuse(filename, fault)
+        if let Some(fault) = fault {
+            self.effects.refuse_mendable(filename, fault);
+        }
     }
+}
+
+/// Why a name of a file is refused: it is too long, or has another scheme than those that it knows.
+fn scheme_fault(file: &Attribute<'_>) -> Option<Fault> {
+    const LONGEST: usize = 255;
+    if file.value.split('/').any(|name| name.len() > LONGEST) {
+        return Some(Fault::Mesh("its name has a part of more than 255 bytes"));
+    }
+    let (scheme, _) = file.value.split_once("://")?;
+    let is_known = matches!(scheme, "package" | "model" | "file");
+    let why = "the scheme of its name is none of package, model and file";
+    (!is_known).then_some(Fault::ForOthers(why))
 }
 
 /// Entries of a kind of Pinocchio's own `<collision_checking>`, which are looked through until one names the shape: the names

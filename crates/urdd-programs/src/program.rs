@@ -110,8 +110,9 @@ impl Program {
     pub fn read(self, file: &File) -> Effects {
         let mut effects = Effects::default();
         // What a reader refuses is among the effects.
-        let _ = (self.about().read)(file, &mut effects);
-        if effects.loads() && self.about().is_for.is_none() {
+        let is_read = (self.about().read)(file, &mut effects).is_ok();
+        // An element of another name may be the one that is missing.
+        if is_read && effects.lacks_files_alone() && self.about().is_for.is_none() {
             let (ignored, cut) = file.unknown(self.about().names);
             ignored.iter().for_each(|found| found.add(self.about().never, &mut effects));
             effects.count(*cut, Deed::Drops);

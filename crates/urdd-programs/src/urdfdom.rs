@@ -5,6 +5,7 @@ mod parts;
 
 use std::collections::BTreeMap;
 
+use crate::effect::Refused;
 use crate::prelude::*;
 use crate::tinyxml1;
 use crate::tree::Tree;
@@ -96,11 +97,16 @@ pub fn model<'t>(
         },
     };
     let mut reader = UrdfdomReader { minor, effects, materials: HashMap::new() };
-    reader.materials(robot)?;
+    reader.materials(robot);
     let links = reader.links(robot)?;
-    let joints = reader.joints(robot)?;
+    let joints = reader.joints(robot);
+    reader.effects.are_read(0)?;
     let model = Model { robot, links, joints };
     reader.tree(robot, &model)?;
+    // Another program goes on with what urdfdom has, if it has all of it.
+    if !reader.effects.loads() {
+        return Err(Refused);
+    }
     if release == Release::Four {
         formats(effects)?;
     }
@@ -140,6 +146,7 @@ struct UrdfdomReader<'r> {
 
 impl UrdfdomReader<'_> {
     fn tree(&mut self, robot: Node<'_>, model: &Model<'_>) -> Reading<()> {
+        let before = self.effects.unread_parts();
         let mut children = HashSet::new();
         for joint in model.joints.values() {
             let ends = [("parent", joint.parent), ("child", joint.child)];
@@ -151,17 +158,19 @@ impl UrdfdomReader<'_> {
                         Some(_) => Fault::Missing("link"),
                     };
                     let at = joint.node.child(name).unwrap_or(joint.node);
-                    return self.effects.refuse(at, fault);
+                    let _ = self.effects.refuse::<()>(at, fault);
                 }
             }
-            for (name, link) in [ends[1], ends[0]] {
+            for (name, link) in [ends[1], ends[0]].into_iter().filter(|(_, link)| !link.is_empty())
+            {
                 if !model.links.contains_key(link) {
                     let at = joint.node.child(name).unwrap_or(joint.node);
-                    return self.effects.refuse(at, Fault::unknown("link", link));
+                    let _ = self.effects.refuse::<()>(at, Fault::unknown("link", link));
                 }
             }
             children.insert(joint.child);
         }
+        self.effects.are_read(before)?;
         let roots = model.links.iter().filter(|(name, _)| !children.contains(*name));
         let mut roots: Vec<usize> = roots.map(|(_, link)| link.node.start()).collect();
         roots.sort_unstable();

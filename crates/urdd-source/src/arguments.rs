@@ -44,7 +44,7 @@ pub enum ArgumentsError {
     Read(#[from] ReadError),
     #[error("it is not UTF-8")]
     NotUtf8,
-    #[error("not well-formed XML: {0}")]
+    #[error("{0}")]
     Xml(String),
     #[error(transparent)]
     Account(#[from] AccountError),
@@ -193,7 +193,7 @@ impl<'a> Texts<'a> {
         let text = self.gate.bytes(file, MAX_SOURCE_BYTES)?;
         let text = String::from_utf8(text).map_err(|_| ArgumentsError::NotUtf8)?;
         let document = urdd_xml::parse(&text, urdd_xml::Kind::Robot)
-            .map_err(|error| ArgumentsError::Xml(error.words(&text)))?;
+            .map_err(|error| ArgumentsError::Xml(error.sentence(&text)))?;
         let lines = LineIndex::new(&text);
         let folder = file.file.parent().unwrap_or(&file.file);
         let mut included = Vec::new();

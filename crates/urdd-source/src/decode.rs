@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use urdd_xml::element::Edit;
+use urdd_xml::foreign::foreign;
 use urdd_xml::{ParserError as Error, Xml, XmlError};
 
 use crate::error::SourceError;
@@ -143,7 +144,8 @@ pub fn decode(bytes: &[u8], shown: &str, notes: &mut Vec<Note>) -> Result<Decode
         }
         None => {
             if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
-                let reason = format!("it is not a text file: its byte {at} is 0; give a URDF");
+                let plain = || format!("it is not a text file: its byte {at} is 0; give a URDF");
+                let reason = foreign(bytes).map_or_else(plain, |foreign| foreign.to_string());
                 return Err(SourceError::unread(shown, reason));
             }
             let problem = "the file is not UTF-8, and declares no other encoding".to_owned();

@@ -11,7 +11,7 @@ use super::note::SourcePlace;
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say it")]
 pub enum Fault {
-    #[error("not well-formed XML: {0}")]
+    #[error("{0}")]
     NotXml(String),
     #[error(
         "the file declares XML entities of its own (`<!ENTITY`), which are not supported; `xmllint --noent FILE` writes the file without them"

@@ -13,7 +13,7 @@ use urdd_directory::position::LineIndex;
 #[non_exhaustive]
 pub enum ReadError {
     /// Not well-formed XML, or beyond a limit of the XML parser.
-    #[error("line {line}, column {column}: not well-formed XML: {reason}")]
+    #[error("line {line}, column {column}: {reason}")]
     Xml {
         /// The line, from 1.
         line: u32,
@@ -52,7 +52,7 @@ impl<'t> Srdf<'t> {
         let document = urdd_xml::parse(text, Kind::Other).map_err(|error| ReadError::Xml {
             line: error.pos().row,
             column: error.pos().col,
-            reason: error.words(text),
+            reason: error.sentence(text),
         })?;
         match document.root_element().tag_name().name() {
             "robot" => Ok(Srdf(document)),

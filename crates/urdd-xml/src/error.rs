@@ -1,5 +1,6 @@
 //! What a document may have; why one is rejected, where, and what to do.
 
+use crate::foreign::foreign;
 use roxmltree::{Error, TextPos};
 
 /// Maximum nesting depth. A URDF has 6 levels and a COLLADA scene some 20; that of a snake robot with 100 joints has
@@ -82,6 +83,14 @@ impl XmlError {
                 "it declares entities (`<!ENTITY`), which are not supported; `xmllint --noent FILE` writes the file without them".to_owned()
             }
             XmlError::Refused { what, .. } => what.clone(),
+        }
+    }
+
+    /// As [`XmlError::words`], as a sentence: of a file of another kind, what it is.
+    pub fn sentence(&self, text: &str) -> String {
+        match foreign(text.as_bytes()) {
+            Some(foreign) => foreign.to_string(),
+            None => format!("not well-formed XML: {}", self.words(text)),
         }
     }
 

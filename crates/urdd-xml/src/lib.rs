@@ -14,6 +14,7 @@ mod check;
 mod document;
 pub mod element;
 mod error;
+pub mod foreign;
 mod mended;
 pub mod number;
 pub mod other_parts;

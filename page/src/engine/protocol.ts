@@ -292,7 +292,7 @@ export interface Finding {
   message: string;
   count: number;
   /** What programs do because of it. */
-  programs: { program: string; does: Deed }[];
+  programs: { program: string; does: Deed; is_supposed: boolean }[];
   [key: string]: unknown;
 }
 
@@ -327,6 +327,8 @@ export interface ProgramEffect {
   makes: string | null;
   /** Whether it does so with every robot, or because of another fault. */
   is_usual: boolean;
+  /** Whether the program refuses the file for something else before: it is so once that is mended. */
+  is_supposed: boolean;
 }
 
 export interface ImportedFrom {

@@ -510,6 +510,9 @@ class Does:
     does: Deed
     """What it does."""
 
+    is_supposed: bool
+    """Whether the program refuses the file for something else before. It is so once that is mended."""
+
 
 @dataclass(frozen=True)
 class NotChecked:
@@ -600,6 +603,9 @@ class ProgramEffect:
 
     is_usual: bool
     """Whether the program does so with every robot, or because of another fault: nothing is wrong there."""
+
+    is_supposed: bool
+    """Whether the program refuses the file for something else before. It is so once that is mended."""
 
 
 @dataclass(frozen=True)

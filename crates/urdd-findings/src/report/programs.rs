@@ -6,7 +6,9 @@ use std::collections::BTreeMap;
 use crate::check::Examined;
 use crate::run;
 use urdd_format::readable::counted;
-use urdd_format::report::{Deed, Does, Place, ProgramResult, Report, Severity, Urdd};
+use urdd_format::report::{
+    Deed, Does, Place, ProgramEffect, ProgramResult, Report, Severity, Urdd,
+};
 
 pub use crate::settings::NAMES;
 
@@ -161,9 +163,8 @@ pub(super) fn unsaid<'r>(report: &'r Report, name: &str) -> Option<(&'r str, usi
     for urdd in &report.urdds {
         let program = urdd.programs.iter().find(|program| program.name == name);
         let refusing = program.filter(|one| one.does >= Some(Deed::Refuses));
-        let Some(program) = refusing.filter(|one| finding(urdd, one).is_none()) else { continue };
-        let mut effects = program.effects.iter();
-        if let Some(effect) = effects.find(|effect| Some(effect.does) == program.does) {
+        let Some(program) = refusing else { continue };
+        if let Cause::Effect(effect) = causes(urdd, program).0 {
             *reasons.entry(&effect.reason).or_default() += 1;
         }
     }
@@ -195,35 +196,67 @@ fn outcome(urdd: &Urdd, program: &ProgramResult) -> Outcome {
     }
 }
 
-/// The finding that says why a program does what it does, and its place.
-fn finding<'u>(urdd: &'u Urdd, program: &ProgramResult) -> Option<(&'u str, &'u Place)> {
+/// Why a program refuses a file.
+enum Cause<'u> {
+    Finding(&'u str, &'u Place),
+    /// No finding says it.
+    Effect(&'u ProgramEffect),
+    Unknown,
+}
+
+/// Why a program refuses a file, and a finding for which it would refuse it once that is mended.
+fn causes<'u>(
+    urdd: &'u Urdd,
+    program: &'u ProgramResult,
+) -> (Cause<'u>, Option<(&'u str, &'u Place)>) {
     // What follows from a finding is among its related places.
-    let mut places = urdd.findings.iter().flat_map(|finding| {
+    let places = urdd.findings.iter().flat_map(|finding| {
         let all = finding.places.iter().flat_map(|place| [place].into_iter().chain(&place.related));
         all.map(move |place| (finding.code.as_str(), place))
     });
-    let is_why = |does: &Does| does.program == program.program && Some(does.does) == program.does;
-    places.find(|(_, place)| place.programs.iter().any(is_why))
+    let finding = |is_supposed: bool| {
+        let is_why = |does: &Does| {
+            let is_its = does.program == program.program && does.is_supposed == is_supposed;
+            is_its && does.does >= Deed::Refuses
+        };
+        places.clone().find(|(_, place)| place.programs.iter().any(is_why))
+    };
+    let (first, next) = (finding(false), finding(true));
+    let is_first = |effect: &&ProgramEffect| effect.does >= Deed::Refuses && !effect.is_supposed;
+    let effect = || program.effects.iter().find(is_first);
+    let cause = match first {
+        Some((code, place)) => Cause::Finding(code, place),
+        None => effect().map_or(Cause::Unknown, Cause::Effect),
+    };
+    (cause, next)
 }
 
-/// The finding of it; where there is none, what the program says.
+/// The finding of it; where there is none, what the program says. And what would be next.
 fn why(urdd: &Urdd, program: &ProgramResult) -> String {
-    if let Some((code, place)) = finding(urdd, program) {
+    let of_finding = |code: &str, place: &Place| {
         let at = place.line.zip(place.column);
         // A file that the robot's own includes has a name.
         let own = urdd.path.rsplit('/').next();
         let other = place.file.as_deref().filter(|file| own != Some(*file));
         let file = other.map(|file| format!("{file}:")).unwrap_or_default();
-        return at.map_or_else(
+        at.map_or_else(
             || code.to_owned(),
             |(line, column)| format!("{code} at {file}{line}:{column}"),
-        );
+        )
+    };
+    let (cause, next) = causes(urdd, program);
+    let mut why = match cause {
+        Cause::Finding(code, place) => of_finding(code, place),
+        Cause::Effect(effect) => match effect.line.zip(effect.column) {
+            Some((line, column)) => format!("{} at {line}:{column}", effect.reason),
+            None => effect.reason.clone(),
+        },
+        Cause::Unknown => String::new(),
+    };
+    if let Some((code, place)) = next {
+        why += &format!("; with that mended, {}", of_finding(code, place));
     }
-    let effect = program.effects.iter().find(|effect| Some(effect.does) == program.does);
-    effect.map_or_else(String::new, |effect| match effect.line.zip(effect.column) {
-        Some((line, column)) => format!("{} at {line}:{column}", effect.reason),
-        None => effect.reason.clone(),
-    })
+    why
 }
 
 fn loaded(program: &ProgramResult) -> Outcome {

@@ -1,6 +1,8 @@
 //! Raw bytes: the mesh format, from the content, or from the extension if the content is ambiguous; and the words and
 //! numbers of a text.
 
+use urdd_xml::foreign::{LFS_POINTER, signature};
+
 use super::scene::{Fault, Format};
 
 /// Number of leading bytes searched for format markers. Long comments may precede the root element of XML.
@@ -19,8 +21,11 @@ pub(super) fn format_of(bytes: &[u8], name: &str) -> Result<Format, Fault> {
     if is_whole_binary_stl(bytes) {
         return Ok(Format::StlBinary);
     }
-    if let Some(unsupported) = known_but_unread(bytes) {
-        return Err(Fault::NotSupported(format!("this is {unsupported}, which is not supported")));
+    if let Some(other) = signature(bytes) {
+        return Err(Fault::NotSupported(match bytes.starts_with(LFS_POINTER) {
+            true => other.to_string(),
+            false => format!("this is {}, which is not supported", other.what),
+        }));
     }
     let head = &bytes[..bytes.len().min(HEAD)];
     let is_text = looks_like_text(head);
@@ -73,21 +78,6 @@ fn is_whole_binary_stl(bytes: &[u8]) -> bool {
     let count = bytes.get(80..STL_HEADER).and_then(|count| count.try_into().ok());
     let length = |count| STL_HEADER as u64 + 50 * u64::from(u32::from_le_bytes(count));
     count.is_some_and(|count| bytes.len() as u64 == length(count))
-}
-
-fn known_but_unread(bytes: &[u8]) -> Option<&'static str> {
-    let marks: [(&[u8], &str); 9] = [
-        (b"PK\x03\x04", "a ZIP archive (.zae, .3mf, .usdz)"),
-        (b"ply\n", "PLY"),
-        (b"ply\r", "PLY"),
-        (b"Kaydara FBX", "FBX"),
-        (b"BLENDER", "a Blender file"),
-        (b"\x1f\x8b", "a gzip archive"),
-        (b"version https://git-lfs", "a Git LFS pointer instead of the mesh (run `git lfs pull`)"),
-        (b"OFF\n", "OFF"),
-        (b"OFF\r", "OFF"),
-    ];
-    marks.iter().find(|(mark, _)| bytes.starts_with(mark)).map(|(_, name)| *name)
 }
 
 /// Whether there are no control characters other than white space. None of the binary formats passes.

@@ -197,7 +197,7 @@ fn parse<'t>(
 ) -> Fallible<urdd_xml::Document<'t>> {
     let document = parse_leniently(text, "mujoco", mended).map_err(|error| {
         let place = Place { file, offset: error.offset(text) };
-        at(place, ImportFault::NotXml(error.words(text)))
+        at(place, ImportFault::NotXml(error.sentence(text)))
     })?;
     gate.account().charge(mended.size()).at(Place { file, offset: 0 })?;
     Ok(document)

@@ -142,7 +142,9 @@ fn fault_of(tag: Tag, name: &str) -> Option<&'static str> {
     if is_reserved || name == "world" && SCOPED.contains(&tag.name()) {
         return Some("has a name that is reserved");
     }
-    (tag.version >= NO_SCOPES && name.contains("::")).then_some("has `::` in its name")
+    // The name of a plugin is that of a class.
+    let has_scope = tag.name() != "plugin" && name.contains("::");
+    (tag.version >= NO_SCOPES && has_scope).then_some("has `::` in its name")
 }
 
 fn quoted(name: Option<&str>) -> String {

@@ -123,7 +123,7 @@ impl<'r> SdfReader<'r> {
             Ok(document) => document,
             Err(error) => {
                 let place = Place { file: index, offset: error.offset(&text) };
-                return Err(at(place, ImportFault::NotXml(error.words(&text))));
+                return Err(at(place, ImportFault::NotXml(error.sentence(&text))));
             }
         };
         self.charge(mended.size(), Place { file: index, offset: 0 })?;

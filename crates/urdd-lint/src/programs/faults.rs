@@ -31,8 +31,8 @@ pub struct Said {
 }
 
 /// The faults of a file, in order of place. What a program does with every robot is none. All that is wrong with an attribute
-/// is one fault. `refusing` are the programs that have no robot.
-pub fn faults(said: Vec<Said>, refusing: &[Program], text: &str) -> Vec<Faulty> {
+/// is one fault.
+pub fn faults(said: Vec<Said>, text: &str) -> Vec<Faulty> {
     let mut by_place: BTreeMap<usize, Vec<Faulty>> = BTreeMap::new();
     for said in said.into_iter().filter(|said| said.effect.fault.is_of_robot()) {
         let (at, fault) = (said.effect.at, said.effect.fault.clone());
@@ -45,12 +45,7 @@ pub fn faults(said: Vec<Said>, refusing: &[Program], text: &str) -> Vec<Faulty> 
             None => here.push(new),
         }
     }
-    // What a program loses of a robot that it does not have says nothing.
-    let is_something = |faulty: &Faulty| {
-        let mut said = faulty.said.iter();
-        said.any(|said| said.is_refused() || !refusing.contains(&said.program))
-    };
-    by_place.into_values().flatten().filter(is_something).collect()
+    by_place.into_values().flatten().collect()
 }
 
 impl Faulty {
@@ -79,7 +74,8 @@ impl Faulty {
         for said in other.said {
             match self.said.iter_mut().find(|known| known.program == said.program) {
                 Some(known) if known.effect.deed < said.effect.deed => *known = said,
-                Some(_) => {}
+                // What is refused first is no supposition.
+                Some(known) => known.effect.is_supposed &= said.effect.is_supposed,
                 None => self.said.push(said),
             }
         }
@@ -105,8 +101,11 @@ impl Faulty {
 
     /// What programs do, as places of findings have it.
     pub fn does(&self) -> Vec<Does> {
-        let does =
-            |one: &Said| Does { program: one.program.id().to_owned(), does: one.effect.deed };
+        let does = |one: &Said| Does {
+            program: one.program.id().to_owned(),
+            does: one.effect.deed,
+            is_supposed: one.effect.is_supposed,
+        };
         self.said.iter().map(does).collect()
     }
 

@@ -56,7 +56,7 @@ impl Asked {
         chosen.retain(|program| program.is_for(&file));
         let others = Program::ALL.into_iter().filter(|one| one.is_asked() && !chosen.contains(one));
         let others = others.filter(|one| one.is_for(&file));
-        let (mut results, mut said, mut refusing) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut results, mut said) = (Vec::new(), Vec::new());
         for program in chosen.iter().copied().chain(others) {
             if settings.source.cancellation.is_cancelled() {
                 break;
@@ -67,12 +67,11 @@ impl Asked {
                 effect.at = offsets.of(effect.at);
             }
             results.push(result(program, is_chosen, &effects, &lines));
-            refusing.extend((!effects.loads()).then_some(program));
             let effects = effects.into_kept().into_iter();
             said.extend(effects.map(|effect| Said { program, is_chosen, effect }));
         }
         let has_chosen = !settings.report.programs.is_empty();
-        Asked { results, faults: faults(said, &refusing, text), has_chosen }
+        Asked { results, faults: faults(said, text), has_chosen }
     }
 }
 
@@ -93,6 +92,7 @@ fn result(
             reason: effect.fault.to_string(),
             makes: effect.makes.clone(),
             is_usual: effect.fault.is_usual(),
+            is_supposed: effect.is_supposed,
         }
     };
     let mut all: Vec<_> = effects.kept().iter().collect();
@@ -167,7 +167,8 @@ impl<'a> MeshFiles<'a> {
             Ok(found) if found.assumed.is_some() || name.trim() != name => Mesh::Missing,
             Ok(found) => self.read(&found, name),
             Err(why) if why.stopped.is_some() => Mesh::Unknown,
-            Err(why) if why.no_package.is_some() || why.outside.is_some() => Mesh::Unknown,
+            Err(why) if why.outside.is_some() => Mesh::Unknown,
+            Err(why) if why.no_package.is_some() => Mesh::NoPackage,
             Err(_) => Mesh::Missing,
         }
     }

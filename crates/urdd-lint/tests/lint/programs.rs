@@ -310,3 +310,116 @@ fn the_line_names_what_is_lost_and_the_versions_of_gazebo() {
     assert!(said.contains("Gazebo Harmonic and Jetty refuse it (LNT015 at "), "{said}");
     assert!(!said.contains('\u{9b}'), "{said}");
 }
+
+/// A robot of one link that a joint moves, with what is in it, in a folder with a mesh `box.obj`: a package's folder `arm`.
+fn moved(inside: &str) -> (tempfile::TempDir, std::path::PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let package = folder.path().join("arm");
+    fs::create_dir(&package).unwrap();
+    fs::write(package.join("package.xml"), "<package><name>arm</name></package>").unwrap();
+    let corners = ["0 0 0", "1 0 0", "0 1 0", "0 0 1"].map(|corner| format!("v {corner}\n"));
+    let mesh = corners.concat() + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    fs::write(package.join("box.obj"), mesh).unwrap();
+    let turn = joint("turn", "revolute", ["base", "tip"], "");
+    let base = r#"<inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>"#;
+    let file = package.join("arm.urdf");
+    let text = format!(
+        r#"<robot name="arm"><link name="base">{base}</link><link name="tip">{inside}</link>{turn}</robot>"#
+    );
+    fs::write(&file, text).unwrap();
+    (folder, file)
+}
+
+/// The same with an inertia that no body has, behind a collision with a mesh of this name.
+fn impossible(mesh: &str) -> (tempfile::TempDir, std::path::PathBuf) {
+    let inertial = r#"<inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="9"/></inertial>"#;
+    let (folder, file) = moved(inertial);
+    let shape = format!(r#"<collision><geometry><mesh filename="{mesh}"/></geometry></collision>"#);
+    let text = fs::read_to_string(&file).unwrap();
+    let base = r#"izz="0.1"/></inertial>"#;
+    fs::write(&file, text.replacen(base, &format!("{base}{shape}"), 1)).unwrap();
+    (folder, file)
+}
+
+#[test]
+fn a_mesh_that_a_program_does_not_take_hides_no_other_fault_from_it() {
+    let found = |mesh: &str| {
+        let (_folder, file) = impossible(mesh);
+        let urdf = linted(&file, &LintSettings::default()).report.urdds.remove(0);
+        let finding = urdf.findings.into_iter().find(|one| one.message.contains("inertia"));
+        let finding = finding.unwrap();
+        let does: Vec<String> = finding.programs.iter().map(|one| one.program.clone()).collect();
+        (finding.code, finding.severity, does)
+    };
+    let there = found("box.obj");
+    assert_eq!(there.1, Severity::Error);
+    assert!(there.2.contains(&"mujoco".to_owned()), "{:?}", there.2);
+    // A package, another package, a file that is not there, a format that nobody reads.
+    for mesh in ["package://arm/box.obj", "package://none/box.obj", "none.obj", "box.step"] {
+        assert_eq!(found(mesh), there, "{mesh}");
+    }
+}
+
+#[test]
+fn what_a_program_refuses_first_is_why_and_the_next_is_what_it_would_refuse_then() {
+    let (_folder, file) = impossible("package://arm/box.obj");
+    let mut settings = LintSettings::default();
+    settings.report.programs = vec!["mujoco".to_owned()];
+    let run = linted(&file, &settings);
+    let mut text = String::new();
+    let style = Style { width: 500, ..Style::default() };
+    human::write(&run.report, style, &mut text).unwrap();
+    let line = text.lines().find(|line| line.trim().starts_with("MuJoCo refuses")).unwrap();
+    assert!(line.contains("refuses it (MuJoCo takes `scheme://` as a folder"), "{line}");
+    assert!(line.contains("; with that mended, LNT060 at 1:"), "{line}");
+    let mujoco = run.report.urdds[0].programs.iter().find(|one| one.program == "mujoco").unwrap();
+    let refusals = mujoco.effects.iter().filter(|one| one.does == Deed::Refuses);
+    let mut supposed: Vec<bool> = refusals.map(|one| one.is_supposed).collect();
+    supposed.sort_unstable();
+    assert_eq!(supposed, [false, true]);
+}
+
+#[test]
+fn a_mesh_of_a_format_that_few_programs_read_is_a_finding() {
+    for name in ["part.step", "part.FBX", "part.ply", "part.wrl", "part.3ds", "part"] {
+        let shape = format!(r#"<geometry><mesh filename="{name}"/></geometry>"#);
+        let (folder, file) = moved(&format!(
+            r#"<inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial><visual>{shape}</visual><collision>{shape}</collision>"#
+        ));
+        fs::write(folder.path().join("arm").join(name), "ISO-10303-21;").unwrap();
+        let findings = linted(&file, &LintSettings::default()).report.urdds.remove(0).findings;
+        let error = findings.iter().find(|one| one.severity == Severity::Error);
+        let error = error.unwrap_or_else(|| panic!("{name}: {findings:#?}"));
+        assert!(error.message.contains("export it as STL, OBJ or COLLADA"), "{}", error.message);
+        for program in ["mujoco", "drake", "pybullet"] {
+            let mut does = findings.iter().flat_map(|finding| &finding.programs);
+            assert!(does.any(|one| one.program == program), "{name} {program}");
+        }
+    }
+}
+
+/// Tried in Drake 1.51.1, PyBullet 3.2.7 and Pinocchio 4.1.0.
+#[test]
+fn a_package_that_is_not_here_is_refused_by_those_that_need_it() {
+    let geometry = r#"<geometry><mesh filename="package://none/box.obj"/></geometry>"#;
+    let inertial = r#"<inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>"#;
+    let refusing = |settings: &LintSettings| {
+        let (_folder, file) = moved(&format!("{inertial}<visual>{geometry}</visual>"));
+        let urdf = linted(&file, settings).report.urdds.remove(0);
+        assert!(urdf.findings.iter().all(|one| one.severity != Severity::Error));
+        let programs = urdf.programs.into_iter().filter(|one| one.does == Some(Deed::Refuses));
+        programs.map(|one| one.program).collect::<Vec<_>>()
+    };
+    assert_eq!(refusing(&LintSettings::default()), ["pinocchio", "drake", "pybullet"]);
+    let without = LintSettings { without_meshes: true, ..LintSettings::default() };
+    assert_eq!(refusing(&without), [""; 0]);
+}
+
+/// Drake says: loop joints are not supported in MultibodyPlant.
+#[test]
+fn a_refusal_is_never_usual() {
+    let closing = r#"<loop_joint name="l" type="continuous"><link1 link="tip"/><link2 link="base"/></loop_joint>"#;
+    let inside = [joint("turn", "revolute", ["base", "tip"], ""), closing.to_owned()].concat();
+    let said = line(&inside, &["base", "tip"], &["drake"]);
+    assert!(said.starts_with("Drake refuses it (`<loop_joint>` is not supported at 1:"), "{said}");
+}

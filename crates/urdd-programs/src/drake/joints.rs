@@ -32,24 +32,29 @@ impl DrakeReader<'_> {
             groups: HashMap::new(),
         };
         let all = robot.children().filter(|node| matches!(node.name(), "joint" | "drake:joint"));
+        let before = self.effects.unread_parts();
         for node in all.clone() {
-            self.joint(node, &mut model)?;
+            let _ = self.joint(node, &mut model);
         }
+        // From here on, joints and frames have to be known.
+        self.effects.are_read(before)?;
         for node in all {
-            self.mimic(node, &model)?;
+            let _ = self.mimic(node, &model);
         }
         let mut actuators = HashSet::new();
         for node in robot.named("transmission") {
-            self.transmission(node, &mut model, &mut actuators)?;
+            let _ = self.transmission(node, &mut model, &mut actuators);
         }
-        if let Some(closing) = robot.child("loop_joint") {
-            return self.effects.refuse(closing, Fault::Way("`<loop_joint>` is not supported"));
+        for closing in robot.named("loop_joint") {
+            let fault = Fault::Way("`<loop_joint>` is not supported");
+            self.effects.refuse_mendable(closing, fault);
         }
         for frame in robot.named("frame") {
-            self.frame(frame, &mut model)?;
+            let _ = self.frame(frame, &mut model);
         }
+        self.effects.are_read(before)?;
         let is_joint = |name: &str| model.joints.contains_key(name);
-        self.forces(robot, links, &model.frames, &is_joint)?;
+        self.forces(robot, links, &model.frames, &is_joint);
         for name in &model.names {
             let idle = model.joints.get(name).filter(|joint| !joint.is_driven);
             let limit = idle.and_then(|joint| joint.node.child("limit"));
@@ -83,15 +88,15 @@ impl DrakeReader<'_> {
                 return self.effects.refuse(end, Fault::unknown("link", &end.value));
             }
         }
-        self.pose(node, &part.inside("origin"))?;
+        self.pose(node, &part.inside("origin"));
         if !matches!(&*kind.value, "fixed" | "floating" | "ball") {
-            self.axis(node, &part.inside("axis"))?;
+            let _ = self.axis(node, &part.inside("axis"));
         }
         let Some(freedoms) = freedoms(&kind.value, node.name() == "drake:joint") else {
             return self.effects.refuse(kind, Fault::value("type", &kind.value));
         };
         if kind.value == "screw" {
-            self.effects.needed_element(node, "drake:screw_thread_pitch")?;
+            let _ = self.effects.needed_element(node, "drake:screw_thread_pitch");
         }
         if kind.value == "floating" {
             self.effects.drop(kind, part, Fault::value("type", "floating"));
@@ -110,11 +115,11 @@ impl DrakeReader<'_> {
             return self.effects.refuse(child, Fault::Tree("a joint has one link on both sides"));
         }
         let joint = Joint { node, freedoms, effort, is_driven: freedoms == 0 };
-        self.add(joint, name, &kind.value, model)?;
-        match model.connect(&parent.value, &child.value) {
-            true => Ok(()),
-            false => self.effects.refuse(node, Fault::Tree("the joint closes a loop")),
+        self.add(joint, name, &kind.value, model);
+        if !model.connect(&parent.value, &child.value) {
+            self.effects.refuse_mendable(node, Fault::Tree("the joint closes a loop"));
         }
+        Ok(())
     }
 
     /// Adds a joint and its frames, whose names must be new.
@@ -124,9 +129,9 @@ impl DrakeReader<'_> {
         name: &'t Attribute<'t>,
         kind: &str,
         model: &mut Model<'_, 't>,
-    ) -> Reading<()> {
+    ) {
         if model.joints.insert(&name.value, joint).is_some() {
-            return self.effects.refuse(name, Fault::not_unique("joint", &name.value));
+            return self.effects.refuse_mendable(name, Fault::not_unique("joint", &name.value));
         }
         model.names.push(&name.value);
         let ends: &[&str] = if kind == "planar" { &["parent", "child"] } else { &["parent"] };
@@ -134,10 +139,9 @@ impl DrakeReader<'_> {
             let frame = format!("{}_{end}", name.value);
             if !model.frames.insert(frame) {
                 let rule = "a link or frame is called so with `_parent` or `_child` behind it";
-                return self.effects.refuse(name, Fault::name("joint", &name.value, rule));
+                self.effects.refuse_mendable(name, Fault::name("joint", &name.value, rule));
             }
         }
-        Ok(())
     }
 
     fn end<'t>(&mut self, joint: Node<'t>, name: &'static str) -> Reading<&'t Attribute<'t>> {
@@ -152,7 +156,7 @@ impl DrakeReader<'_> {
         };
         let squares = self.numbers(xyz, 3, part)?.iter().map(|number| number * number).sum::<f64>();
         if squares.sqrt() < 1e-8 || squares.is_infinite() {
-            return self.effects.refuse(xyz, Fault::range(xyz, "an axis needs a length"));
+            self.effects.refuse_mendable(xyz, Fault::range(xyz, "an axis needs a length"));
         }
         Ok(())
     }
@@ -176,7 +180,7 @@ impl DrakeReader<'_> {
                 if let Some(damping) = dynamics.and_then(|node| node.attribute("damping"))
                     && self.numbers(damping, 3, &dynamics_part)?.iter().any(|number| *number < 0.0)
                 {
-                    return self.negative(damping);
+                    self.negative(damping);
                 }
                 if let Some(limit) = limit {
                     let fault = Fault::Way("limits of planar joints are not read");
@@ -203,7 +207,7 @@ impl DrakeReader<'_> {
         if let (Some(lower), Some(upper)) = (lower, upper)
             && lower > upper
         {
-            return self.effects.refuse(limit, CROSSED);
+            self.effects.refuse_mendable(limit, CROSSED);
         }
         for (name, value) in [("lower", lower), ("upper", upper)] {
             if value.is_none() && kind != "continuous" {
@@ -231,14 +235,14 @@ impl DrakeReader<'_> {
 
     fn not_negative(&mut self, node: Node<'_>, name: &str, part: &Part) -> Reading<()> {
         let Some(value) = node.attribute(name) else { return Ok(()) };
-        match self.numbers(value, 1, part)?.iter().any(|number| *number < 0.0) {
-            true => self.negative(value),
-            false => Ok(()),
+        if self.numbers(value, 1, part)?.iter().any(|number| *number < 0.0) {
+            self.negative(value);
         }
+        Ok(())
     }
 
-    pub fn negative<T>(&mut self, value: &Attribute<'_>) -> Reading<T> {
-        self.effects.refuse(value, Fault::range(value, "must not be negative"))
+    pub fn negative(&mut self, value: &Attribute<'_>) {
+        self.effects.refuse_mendable(value, Fault::range(value, "must not be negative"));
     }
 
     fn mimic<'t>(&mut self, node: Node<'t>, model: &Model<'_, 't>) -> Reading<()> {
@@ -325,7 +329,7 @@ impl DrakeReader<'_> {
                 let value = self.effects.needed(found, name)?;
                 let number = self.numbers(value, 1, &part)?;
                 if names.len() == 2 && number.iter().any(|number| *number < 0.0) {
-                    return self.negative(value);
+                    self.negative(value);
                 }
             }
         }
@@ -346,7 +350,11 @@ impl DrakeReader<'_> {
         }
         match model.frames.insert(name.value.to_string()) {
             true => Ok(()),
-            false => self.effects.refuse(name, Fault::not_unique("link or frame", &name.value)),
+            false => {
+                let fault = Fault::not_unique("link or frame", &name.value);
+                self.effects.refuse_mendable(name, fault);
+                Ok(())
+            }
         }
     }
 }

@@ -26,12 +26,12 @@ pub fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = effects.parsed(file.document.within(tinyxml::MAX_DEPTH))?;
     let robot = effects.robot(tree)?;
     let mut reader = DrakeReader { file, effects, materials: HashMap::new() };
-    reader.named(robot, "robot")?;
+    let _ = reader.named(robot, "robot");
     for material in robot.named("material") {
-        reader.material(material, true)?;
+        reader.material(material, true);
     }
     let links = reader.links(robot)?;
-    reader.collision_filters(robot, &links)?;
+    reader.collision_filters(robot, &links);
     reader.joints(robot, &links)
 }
 
@@ -83,15 +83,15 @@ impl DrakeReader<'_> {
                 }
             } else {
                 if let Some(inertial) = inertial {
-                    self.inertial(inertial, &part.inside("inertial"))?;
+                    let _ = self.inertial(inertial, &part.inside("inertial"));
                 }
                 if links.insert(name, link).is_some() {
-                    return self.effects.refuse(link, Fault::not_unique("link", name));
+                    self.effects.refuse_mendable(link, Fault::not_unique("link", name));
                 }
             }
             for kind in ["visual", "collision"] {
                 for (shape, part) in part.shapes(link, kind) {
-                    self.shape(shape, &part)?;
+                    let _ = self.shape(shape, &part);
                 }
             }
         }
@@ -100,19 +100,21 @@ impl DrakeReader<'_> {
 
     /// An inertial. One that no body can have is a solid sphere of water of its mass, or of 1 kg.
     fn inertial(&mut self, inertial: Node<'_>, part: &Part) -> Reading<()> {
-        self.pose(inertial, part)?;
+        let before = self.effects.unread_parts();
+        self.pose(inertial, part);
         let mut written = None;
         if let Some(node) = inertial.child("mass") {
-            written = self.number(node, "value", part)?;
+            written = self.number(node, "value", part).ok().flatten();
         }
         let mass = written.unwrap_or_default();
         let mut tensor = [0.0; 6];
         if let Some(node) = inertial.child("inertia") {
             let names = ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"];
             for (name, value) in names.into_iter().zip(&mut tensor) {
-                *value = self.number(node, name, part)?.unwrap_or_default();
+                *value = self.number(node, name, part).ok().flatten().unwrap_or_default();
             }
         }
+        self.effects.are_read(before)?;
         let fault = if mass < 0.0 {
             Fault::Other("the mass is negative")
         } else if !can_be(tensor) {
@@ -132,25 +134,24 @@ impl DrakeReader<'_> {
         Ok(())
     }
 
-    fn collision_filters(&mut self, robot: Node<'_>, links: &Links<'_>) -> Reading<()> {
+    fn collision_filters(&mut self, robot: Node<'_>, links: &Links<'_>) {
         let groups = || robot.named("drake:collision_filter_group");
         let names: HashSet<&str> = groups().filter_map(|group| group.value("name")).collect();
         for group in groups() {
-            self.effects.needed(group, "name")?;
+            let _ = self.effects.needed(group, "name");
             for member in group.named("drake:member") {
-                let link = self.effects.needed(member, "link")?;
+                let Ok(link) = self.effects.needed(member, "link") else { continue };
                 if !links.contains_key(&*link.value) {
-                    return self.effects.refuse(link, Fault::unknown("link", &link.value));
+                    self.effects.refuse_mendable(link, Fault::unknown("link", &link.value));
                 }
             }
             for ignored in group.named("drake:ignored_collision_filter_group") {
-                let name = self.effects.needed(ignored, "name")?;
+                let Ok(name) = self.effects.needed(ignored, "name") else { continue };
                 if !names.contains(&*name.value) {
-                    return self.effects.refuse(name, Fault::unknown("group", &name.value));
+                    self.effects.refuse_mendable(name, Fault::unknown("group", &name.value));
                 }
             }
         }
-        Ok(())
     }
 
     /// Whether a link or joint says that Drake has to leave it out.
@@ -164,26 +165,28 @@ impl DrakeReader<'_> {
     }
 
     /// The colour of a material. In a visual it may be a name that was defined before.
-    fn material(&mut self, node: Node<'_>, is_global: bool) -> Reading<Option<(usize, Vec<f64>)>> {
+    fn material(&mut self, node: Node<'_>, is_global: bool) -> Option<(usize, Vec<f64>)> {
         let name = node.value("name").unwrap_or_default();
         if name.is_empty() && is_global {
-            return self.effects.refuse(node, Fault::Missing("name"));
+            self.effects.refuse_mendable(node, Fault::Missing("name"));
         }
         if let Some(map) = node.child("drake:diffuse_map") {
-            return self.effects.refuse(map, Fault::Other("`<drake:diffuse_map>` is not for URDF"));
+            let fault = Fault::Other("`<drake:diffuse_map>` is not for URDF");
+            self.effects.refuse_mendable(map, fault);
         }
         let texture = node.child("texture").and_then(|texture| texture.attribute("filename"));
         let texture = texture.filter(|filename| !filename.value.is_empty());
         if let Some(filename) = texture {
-            self.found(filename, "texture")?;
+            self.found(filename, "texture");
         }
-        let mut color = None;
-        if let Some(of) = node.child("color") {
-            let rgba = self.effects.needed(of, "rgba")?;
-            color = Some((rgba.range.start, self.numbers(rgba, 4, &"material".into())?));
-        }
+        let color = node.child("color").map(|of| {
+            let Ok(rgba) = self.effects.needed(of, "rgba") else { return (of.start(), vec![]) };
+            // Any colour, if these are no numbers.
+            let numbers = self.numbers(rgba, 4, &"material".into());
+            (rgba.range.start, numbers.unwrap_or_default())
+        });
         if name.is_empty() {
-            return Ok(color);
+            return color;
         }
         if let Some(known) = self.materials.get(name) {
             let is_other = |color: &[f64]| {
@@ -194,21 +197,24 @@ impl DrakeReader<'_> {
                 || texture.is_some_and(|one| known.texture.as_deref() != Some(&*one.value))
                 || color.as_ref().is_some_and(|(_, color)| is_other(color))
             {
-                return self.effects.refuse(node, Fault::not_unique("material", name));
+                self.effects.refuse_mendable(node, Fault::not_unique("material", name));
+                return color;
             }
-            return Ok(Some((known.at, known.rgba.clone())));
+            return Some((known.at, known.rgba.clone()));
         }
         if color.is_none() && texture.is_none() {
             let fault = match is_global {
                 true => Fault::Other("the material has no colour and no texture"),
                 false => Fault::unknown("material", name),
             };
-            return self.effects.refuse(node, fault);
+            self.effects.refuse_mendable(node, fault);
         }
-        let (at, rgba) = color.unwrap_or_else(|| (node.start(), vec![0.0; 4]));
+        // One that is refused may have any colour.
+        let refused = if texture.is_some() { vec![0.0; 4] } else { vec![] };
+        let (at, rgba) = color.unwrap_or_else(|| (node.start(), refused));
         let texture = texture.map(|filename| filename.value.to_string());
         self.materials.insert(name.to_owned(), Material { rgba: rgba.clone(), texture, at });
-        Ok(Some((at, rgba)))
+        Some((at, rgba))
     }
 
     /// The first child of a name, which is the one that counts: also if it is empty, and another one is not.
@@ -221,15 +227,14 @@ impl DrakeReader<'_> {
         Some(first)
     }
 
-    fn pose(&mut self, parent: Node<'_>, part: &Part) -> Reading<()> {
-        let Some(origin) = self.first(parent, "origin", part) else { return Ok(()) };
+    fn pose(&mut self, parent: Node<'_>, part: &Part) {
+        let Some(origin) = self.first(parent, "origin", part) else { return };
         for name in ["xyz", "rpy"] {
-            self.vector(origin, name, 3, part)?;
+            let _ = self.vector(origin, name, 3, part);
         }
         if let Some(quaternion) = origin.attribute("quat_xyzw") {
             self.effects.unread(quaternion, part, "quat_xyzw");
         }
-        Ok(())
     }
 
     /// A number that may be left out.

@@ -19,7 +19,25 @@ const SHAPES: [(&str, &[&str]); 7] = [
 impl DrakeReader<'_> {
     pub fn shape(&mut self, shape: Node<'_>, part: &Part) -> Reading<()> {
         let geometry = self.effects.needed_element(shape, "geometry")?;
-        self.pose(shape, part)?;
+        self.pose(shape, part);
+        // Its material may be that of others, whatever its shape is.
+        let form = self.form(geometry, part);
+        if shape.name() == "visual" {
+            self.color(shape, &part.inside("material"));
+        }
+        if let Some(name) = shape.attribute("name")
+            && name.value.trim_matches(is_space).is_empty()
+        {
+            self.effects.refuse_mendable(name, Fault::Empty("name"));
+        }
+        match form? {
+            mesh if mesh.name() == "mesh" => self.mesh(mesh, part, shape.name() == "collision"),
+            _ => Ok(()),
+        }
+    }
+
+    /// The shape in a `<geometry>`.
+    fn form<'t>(&mut self, geometry: Node<'t>, part: &Part) -> Reading<Node<'t>> {
         let known = SHAPES.iter().find_map(|(name, sizes)| Some((geometry.child(name)?, *sizes)));
         let Some((form, sizes)) = known else {
             return self.effects.shapeless(geometry);
@@ -30,52 +48,44 @@ impl DrakeReader<'_> {
             let numbers = self.numbers(value, count, part)?;
             let may_be_zero = form.name() == "sphere";
             if numbers.iter().any(|&size| size < 0.0 || (size == 0.0 && !may_be_zero)) {
-                return self.effects.refuse(value, Fault::range(value, "a size must be above 0"));
+                let fault = Fault::range(value, "a size must be above 0");
+                self.effects.refuse_mendable(value, fault);
             }
         }
-        if shape.name() == "visual" {
-            self.color(shape, &part.inside("material"))?;
-        }
-        if let Some(name) = shape.attribute("name")
-            && name.value.trim_matches(is_space).is_empty()
-        {
-            return self.effects.refuse(name, Fault::Empty("name"));
-        }
-        match form.name() {
-            "mesh" => self.mesh(form, part, shape.name() == "collision"),
-            _ => Ok(()),
-        }
+        Ok(form)
     }
 
-    fn color(&mut self, visual: Node<'_>, part: &Part) -> Reading<()> {
-        let Some(material) = self.first(visual, "material", part) else { return Ok(()) };
-        let Some((at, rgba)) = self.material(material, false)? else { return Ok(()) };
+    fn color(&mut self, visual: Node<'_>, part: &Part) {
+        let Some(material) = self.first(visual, "material", part) else { return };
+        let Some((at, rgba)) = self.material(material, false) else { return };
         if rgba.iter().all(|number| (0.0..=1.0).contains(number)) {
-            return Ok(());
+            return;
         }
         let text: Vec<String> = rgba.iter().map(f64::to_string).collect();
-        self.effects.refuse(at, Fault::range_of("rgba", &text.join(" "), COLOR_RULE))
+        let fault = Fault::range_of("rgba", &text.join(" "), COLOR_RULE);
+        self.effects.refuse_mendable(at, fault);
     }
 
     fn mesh(&mut self, mesh: Node<'_>, part: &Part, is_collision: bool) -> Reading<()> {
         let filename = self.effects.needed(mesh, "filename")?;
-        let facts = self.found(filename, "mesh")?;
+        let facts = self.found(filename, "mesh");
         if let Some(scale) = mesh.attribute("scale") {
             // One number stands for all three.
             let count = if scale.value.contains(' ') { 3 } else { 1 };
             let numbers = self.numbers(scale, count, part)?;
             if numbers.iter().any(|number| number.abs() < 1e-8) {
-                return self.effects.refuse(scale, Fault::range(scale, "a scale must not be 0"));
+                let fault = Fault::range(scale, "a scale must not be 0");
+                self.effects.refuse_mendable(scale, fault);
             }
         }
-        match is_collision {
-            true => self.hull(filename, facts.as_deref()),
-            false => Ok(()),
+        if is_collision {
+            self.hull(filename, facts.as_deref());
         }
+        Ok(())
     }
 
     /// The convex hull of a collision's mesh.
-    fn hull(&mut self, filename: &Attribute<'_>, facts: Option<&MeshFacts>) -> Reading<()> {
+    fn hull(&mut self, filename: &Attribute<'_>, facts: Option<&MeshFacts>) {
         let name = filename.value.rsplit('/').next().unwrap_or_default();
         let end = name.rsplit_once('.').filter(|(stem, _)| !stem.is_empty());
         let end = end.map(|(_, end)| end.to_ascii_lowercase()).unwrap_or_default();
@@ -85,23 +95,27 @@ impl DrakeReader<'_> {
                 Some((obj, _)) if obj.faces == 0 => "the mesh has no face",
                 Some((_, measures)) if measures.spread[0] < 1e-12 => "the mesh is a point",
                 Some((_, measures)) if measures.spread[1] < 1e-12 => "the mesh is a line",
-                _ => return Ok(()),
+                _ => return,
             },
-            "vtk" | "gltf" => return Ok(()),
+            "vtk" | "gltf" => return,
             _ => {
                 let why = "a collision can only have a mesh in OBJ, glTF (.gltf) or VTK";
-                return self.effects.refuse(filename, Fault::ForOthers(why));
+                let fault = match format_fault(name) {
+                    FORMAT => Fault::ForOthers(why),
+                    rare => rare,
+                };
+                return self.effects.refuse_mendable(filename, fault);
             }
         };
-        self.effects.refuse(filename, Fault::Mesh(why))
+        self.effects.refuse_mendable(filename, Fault::Mesh(why));
     }
 
-    /// What is in a file that must be there; none if it is not known.
+    /// What is in a file that must be there; none if that is not known.
     pub fn found(
         &mut self,
         filename: &Attribute<'_>,
         kind: &'static str,
-    ) -> Reading<Option<Arc<MeshFacts>>> {
+    ) -> Option<Arc<MeshFacts>> {
         let name = &*filename.value;
         let mesh = match uri(name) {
             Some(("file", _, path)) => self.file.mesh(&format!("file:///{path}")),
@@ -110,11 +124,14 @@ impl DrakeReader<'_> {
             None if !name.contains("://") => self.file.mesh(name),
             _ => Mesh::Missing,
         };
-        match mesh {
-            Mesh::Unknown => Ok(None),
-            Mesh::Found(facts) => Ok(Some(facts)),
-            Mesh::Missing => self.effects.refuse(filename, Fault::NotFound(kind)),
-        }
+        let fault = match mesh {
+            Mesh::Unknown => return None,
+            Mesh::Found(facts) => return Some(facts),
+            Mesh::NoPackage => NO_PACKAGE,
+            Mesh::Missing => Fault::NotFound(kind),
+        };
+        self.effects.refuse_mendable(filename, fault);
+        None
     }
 }
 
@@ -207,16 +224,15 @@ impl DrakeReader<'_> {
         links: &Links<'_>,
         frames: &HashSet<String>,
         is_joint: &dyn Fn(&str) -> bool,
-    ) -> Reading<()> {
+    ) {
         for force in FORCES {
             for node in robot.named(force.name) {
-                self.force(node, &force, links, frames)?;
+                let _ = self.force(node, &force, links, frames);
                 if force.name == TENDON {
-                    self.tendon(node, is_joint)?;
+                    let _ = self.tendon(node, is_joint);
                 }
             }
         }
-        Ok(())
     }
 
     fn force(
@@ -249,10 +265,11 @@ impl DrakeReader<'_> {
             let numbers = self.numbers(written, count, &force.name.into())?;
             match value {
                 NotNegative if numbers.iter().any(|number| *number < 0.0) => {
-                    return self.negative(written);
+                    self.negative(written);
                 }
                 Positive if numbers.iter().any(|number| *number <= 0.0) => {
-                    return self.effects.refuse(written, Fault::range(written, "must be above 0"));
+                    let fault = Fault::range(written, "must be above 0");
+                    self.effects.refuse_mendable(written, fault);
                 }
                 _ => {}
             }

@@ -25,10 +25,31 @@ pub struct ColladaFacts {
     pub depth: usize,
     /// Whether white space stands before `<?xml`: assimp and tinyxml2 skip it, strict readers refuse the file.
     pub begins_late: bool,
+    /// Whether more is behind its root, elements or what follows a NUL: assimp and tinyxml2 skip it.
+    pub has_more: bool,
+    /// Whether text is there: assimp alone skips it.
+    pub has_text: bool,
 }
 
 pub fn collada(bytes: &[u8]) -> Option<ColladaFacts> {
-    let text = std::str::from_utf8(bytes).ok()?.trim_start_matches('\u{feff}');
+    std::str::from_utf8(bytes).ok().and_then(well_formed).or_else(|| with_more(bytes))
+}
+
+/// A file with more behind its root, up to a NUL: what is there is well-formed itself.
+fn with_more(bytes: &[u8]) -> Option<ColladaFacts> {
+    const END: &[u8] = b"</COLLADA>";
+    let bytes = bytes.split(|byte| *byte == 0).next().unwrap_or_default();
+    let end = bytes.windows(END.len()).position(|window| window == END)? + END.len();
+    let rest = format!("<r>{}</r>", String::from_utf8_lossy(&bytes[end..]));
+    let rest = urdd_xml::parse(&rest, Kind::Lenient).ok()?;
+    let mut texts = rest.root_element().children().filter_map(|node| node.text());
+    let has_text = texts.any(|text| !text.trim().is_empty());
+    let facts = well_formed(std::str::from_utf8(&bytes[..end]).ok()?)?;
+    Some(ColladaFacts { has_more: true, has_text, ..facts })
+}
+
+fn well_formed(text: &str) -> Option<ColladaFacts> {
+    let text = text.trim_start_matches('\u{feff}');
     let begins_late = text.trim_start().starts_with("<?xml ") && !text.starts_with('<');
     let text = if begins_late { text.trim_start() } else { text };
     let document = urdd_xml::parse(text, Kind::Lenient).ok()?;

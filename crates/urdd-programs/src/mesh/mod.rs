@@ -5,12 +5,15 @@ pub mod formats;
 use std::sync::Arc;
 
 use self::formats::{ColladaFacts, Measures, ObjFacts, StlFacts};
+use crate::fault::{BEGINS_LATE, FORMAT, Fault, HAS_MORE, RARE_FORMAT};
 
 /// A mesh file that a URDF names.
 #[derive(Debug, Clone)]
 pub enum Mesh {
-    /// Not known: its package is not here. It is taken to be right.
+    /// Not known. It is taken to be right.
     Unknown,
+    /// Its package is not here.
+    NoPackage,
     /// There is no such file.
     Missing,
     /// It is there.
@@ -99,9 +102,14 @@ impl MeshFacts {
         }
     }
 
-    /// Whether it is a COLLADA file that lenient readers of XML alone take, for the white space that it begins with.
-    pub fn begins_late(&self) -> bool {
-        self.collada.as_ref().is_some_and(|collada| collada.begins_late)
+    /// Why it is a COLLADA file that lenient readers of XML alone take.
+    pub fn leniency(&self) -> Option<Fault> {
+        let collada = self.collada.as_ref()?;
+        match collada {
+            _ if collada.begins_late => Some(BEGINS_LATE),
+            _ if collada.has_more => Some(HAS_MORE),
+            _ => None,
+        }
     }
 
     /// Whether neither its ending nor its content is that of STL, OBJ or COLLADA.
@@ -113,6 +121,17 @@ impl MeshFacts {
     pub fn is_binary_stl(&self) -> bool {
         let count = formats::written_count(&self.head).and_then(|count| count.checked_mul(50));
         count.is_some_and(|body| self.size.checked_sub(84) == Some(body))
+    }
+}
+
+/// Why a program does not read the format of a name. Some formats are for others, and some for hardly any program.
+pub fn format_fault(name: &str) -> Fault {
+    const KNOWN: [&str; 7] = ["stl", "obj", "dae", "gltf", "glb", "msh", "vtk"];
+    let file = name.trim().rsplit('/').next().unwrap_or_default();
+    let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending);
+    match KNOWN.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
+        true => FORMAT,
+        false => RARE_FORMAT,
     }
 }
 

@@ -35,14 +35,15 @@ impl MujocoReader<'_> {
         }
         let name = self.text(node, "name")?;
         let part = Part::of("joint", name);
-        let pose = self.origin(node, &part)?;
-        let joint = Joint { node, name, kind: &kind.value, pose };
-        self.axis(&joint)?;
+        let pose = self.origin(node, &part);
+        let at = pose.as_ref().map_or_else(|_| Pose::default(), Pose::clone);
+        let joint = Joint { node, name, kind: &kind.value, pose: at };
+        let _ = self.axis(&joint);
         if !joint.moves() {
             return Ok(joint);
         }
         self.readable(node, "joint", name);
-        if let Some(origin) = node.child("origin") {
+        if let Some(origin) = node.child("origin").filter(|_| pose.is_ok()) {
             self.finite(origin, &["xyz", "rpy"]);
         }
         if !names.insert(name) && !name.is_empty() {
@@ -52,13 +53,13 @@ impl MujocoReader<'_> {
                 Release::Four => self.effects.read_as(node, &part, fault, "without a name"),
             }
         }
-        if let Some(dynamics) = self.only(node, "dynamics")? {
+        if let Ok(Some(dynamics)) = self.only(node, "dynamics") {
             let part = part.inside("dynamics");
-            self.number(dynamics, "damping", &part)?;
-            self.number(dynamics, "friction", &part)?;
+            let _ = self.number(dynamics, "damping", &part);
+            let _ = self.number(dynamics, "friction", &part);
             self.finite(dynamics, &["damping", "friction"]);
         }
-        self.limit(&joint, &part)?;
+        let _ = self.limit(&joint, &part);
         if joint.kind == "planar" {
             let fault = Fault::Way("a planar joint becomes three joints");
             self.effects.read_as(kind, &part, fault, format!("{name}_TX, {name}_TY and {name}_RZ"));
@@ -73,7 +74,7 @@ impl MujocoReader<'_> {
         let numbers: [f64; 3] = self.needed_numbers(axis, "xyz")?;
         let square: f64 = numbers.iter().map(|number| number * number).sum();
         if square < LEAST && (joint.is_scalar() || joint.kind == "planar") {
-            return self.effects.refuse(axis, Fault::Other("the axis has no length"));
+            self.effects.refuse_mendable(axis, Fault::Other("the axis has no length"));
         }
         if joint.moves() {
             self.finite(axis, &["xyz"]);
@@ -99,7 +100,7 @@ impl MujocoReader<'_> {
         match joint.kind {
             "spherical" if has_range && range[0] != Some(0.0) => {
                 let why = "the lower limit of a spherical joint is not 0";
-                return self.effects.refuse(limit, Fault::Limits(why));
+                self.effects.refuse_mendable(limit, Fault::Limits(why));
             }
             "continuous" if has_range => {
                 let fault = Fault::Limits("a continuous joint is limited by `lower` and `upper`");
@@ -137,7 +138,7 @@ impl MujocoReader<'_> {
     }
 
     /// Mimics, when all joints are known.
-    pub fn mimics(&mut self, joints: &[Joint<'_>]) -> Reading<()> {
+    pub fn mimics(&mut self, joints: &[Joint<'_>]) {
         let mut scalar: HashMap<&str, bool> = HashMap::new();
         for joint in joints.iter().filter(|joint| joint.moves()) {
             scalar.entry(joint.name).or_insert(joint.is_scalar());
@@ -149,19 +150,19 @@ impl MujocoReader<'_> {
                 continue;
             }
             let part = part.inside("mimic");
-            let Some(mimic) = self.only(joint.node, "mimic")? else { continue };
-            let leader = self.text(mimic, "joint")?;
-            self.number(mimic, "multiplier", &part)?;
-            self.number(mimic, "offset", &part)?;
+            let Ok(Some(mimic)) = self.only(joint.node, "mimic") else { continue };
+            let leader = self.text(mimic, "joint");
+            let _ = self.number(mimic, "multiplier", &part);
+            let _ = self.number(mimic, "offset", &part);
+            let Ok(leader) = leader else { continue };
             if !joint.is_scalar() {
                 self.effects.drop(mimic, part, Fault::value("type", joint.kind));
             } else if leader == joint.name {
-                return self.effects.refuse(mimic, MIMICS_ITSELF);
+                self.effects.refuse_mendable(mimic, MIMICS_ITSELF);
             } else if scalar.get(leader) != Some(&true) {
                 let fault = Fault::unknown("revolute, continuous or prismatic joint", leader);
                 self.effects.drop(mimic, part, fault);
             }
         }
-        Ok(())
     }
 }

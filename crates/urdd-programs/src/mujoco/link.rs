@@ -1,5 +1,7 @@
 //! Links: inertials, visuals, collisions, and the meshes of these: binary STL and OBJ.
 
+use std::sync::Arc;
+
 use crate::mujoco::reader::{Body, LEAST, LEAST_EIGENVALUE, MujocoReader, Release, eigenvalues};
 use crate::number::{Matrix, Pose};
 use crate::prelude::*;
@@ -25,21 +27,23 @@ impl Solid {
 impl MujocoReader<'_> {
     pub fn link(&mut self, link: Node<'_>, name: &str) -> Reading<Body> {
         let part = Part::of("link", name);
-        let own = match self.only(link, "inertial")? {
-            Some(inertial) => Some(self.inertial(inertial, name)?),
-            None => None,
+        let before = self.effects.unread_parts();
+        let own = match self.only(link, "inertial") {
+            Ok(Some(inertial)) => self.inertial(inertial, name).ok(),
+            _ => None,
         };
         let mut solids = Vec::new();
         for (visual, part) in part.shapes(link, "visual") {
-            self.own_material(visual)?;
+            let _ = self.own_material(visual);
             match self.settings.has_visuals {
-                true => solids.push(self.geom(visual, &part)?),
+                true => solids.extend(self.geom(visual, &part)),
                 false => self.effects.unread(visual, part, "visual"),
             }
         }
         for (collision, part) in part.shapes(link, "collision") {
-            solids.push(self.geom(collision, &part)?);
+            solids.extend(self.geom(collision, &part));
         }
+        self.effects.are_read(before)?;
         let body = match own {
             Some(body) if !self.settings.ignores_inertials || solids.is_empty() => body,
             _ => self.body_of(link, name, &solids)?,
@@ -62,7 +66,8 @@ impl MujocoReader<'_> {
 
     fn inertial(&mut self, inertial: Node<'_>, name: &str) -> Reading<Body> {
         let part = Part::of("link", name).inside("inertial");
-        let mut pose = self.origin(inertial, &part)?;
+        let before = self.effects.unread_parts();
+        let mut pose = self.origin(inertial, &part).unwrap_or_default();
         if self.release == Release::Three && pose.turn != Pose::default().turn {
             let rpy = inertial.child("origin").and_then(|origin| origin.attribute("rpy"));
             let at = rpy.map_or(inertial.start(), |rpy| rpy.range.start);
@@ -74,14 +79,15 @@ impl MujocoReader<'_> {
         let node = self.needed(inertial, "inertia")?;
         let mut six = [0.0; 6];
         for (name, value) in ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"].into_iter().zip(&mut six) {
-            [*value] = self.needed_numbers(node, name)?;
+            [*value] = self.needed_numbers(node, name).unwrap_or_default();
         }
+        self.effects.are_read(before)?;
         if kilograms < 0.0 || kilograms.is_nan() {
             let fault = Fault::Inertia("a mass that is not above 0 is 0");
             self.effects.read_as(mass, &part, fault, "0");
         }
         let kilograms = if kilograms < 0.0 { 0.0 } else { kilograms };
-        let moments = self.moments(node, six, name)?;
+        let moments = self.moments(node, &mut six, name);
         let [ixx, iyy, izz, ixy, ixz, iyz] = six;
         let tensor = match moments {
             [0.0, 0.0, 0.0] => [[0.0; 3]; 3],
@@ -90,16 +96,17 @@ impl MujocoReader<'_> {
         Ok(Body { moments, ..Body::new(kilograms, &pose, &tensor) })
     }
 
-    /// The eigenvalues of a tensor. A tensor of zeros is none.
-    fn moments(&mut self, node: Node<'_>, six: [f64; 6], name: &str) -> Reading<[f64; 3]> {
-        let [ixx, iyy, izz, ixy, ixz, iyz] = six;
-        if six == [0.0; 6] {
-            return Ok([0.0; 3]);
+    /// The eigenvalues of a tensor. A tensor of zeros is none; one that is refused is another from here on.
+    fn moments(&mut self, node: Node<'_>, six: &mut [f64; 6], name: &str) -> [f64; 3] {
+        const MENDED: [f64; 6] = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
+        let [ixx, iyy, izz, ixy, ixz, iyz] = *six;
+        if *six == [0.0; 6] {
+            return [0.0; 3];
         }
         if six.iter().any(|value| !value.is_finite()) {
             let fault = Fault::Inertia("a number of it is not finite");
             self.effects.read_as(node, Part::of("link", name).inside("inertial"), fault, "0");
-            return Ok([0.0; 3]);
+            return [0.0; 3];
         }
         let moments = eigenvalues(
             &[[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]],
@@ -108,16 +115,20 @@ impl MujocoReader<'_> {
         let is_bound = self.release == Release::Four && self.settings.least[1] > 0.0;
         if moments[2] < LEAST_EIGENVALUE && !is_bound {
             let fault = Fault::Inertia("the inertia has an eigenvalue that is not above 0");
-            return self.effects.refuse(node, fault);
+            self.effects.refuse_mendable(node, fault);
+            *six = MENDED;
+            return [1.0; 3];
         }
         if moments[2] + moments[1] < moments[0] && name != "world" {
             if self.settings.balances {
-                return Ok([moments.iter().sum::<f64>() / 3.0; 3]);
+                return [moments.iter().sum::<f64>() / 3.0; 3];
             }
             let why = "a moment of inertia is above the sum of the other two";
-            return self.effects.refuse(node, Fault::Inertia(why));
+            self.effects.refuse_mendable(node, Fault::Inertia(why));
+            *six = MENDED;
+            return [1.0; 3];
         }
-        Ok(moments)
+        moments
     }
 
     /// A link without an inertial.
@@ -229,26 +240,20 @@ impl MujocoReader<'_> {
     pub fn mesh(&mut self, shape: Node<'_>, part: &Part) -> Reading<Solid> {
         let filename = self.effects.needed(shape, "filename")?;
         let scale = self.scale(shape)?;
-        let name = &*filename.value;
-        if name.is_empty() {
-            return self.effects.refuse(filename, Fault::Empty("filename"));
-        }
-        let strips = self.settings.strips_paths.unwrap_or(self.release == Release::Three);
-        if name.contains("://") && !strips {
-            let why = "MuJoCo takes `scheme://` as a folder; write a path from the URDF's folder";
-            return self.effects.refuse(filename, Fault::ForOthers(why));
-        }
-        if !self.has_known_ending(name) {
-            return self.effects.refuse(filename, FORMAT);
-        }
-        let facts = match self.found(filename, part, strips) {
-            Mesh::Unknown => return Ok(Solid::cuboid(1e-3, [0.1; 3])),
-            Mesh::Missing => return self.missing(filename),
-            Mesh::Found(facts) => facts,
+        // What stands for a mesh that is not known, and for one that is refused.
+        let any = Solid::cuboid(1e-3, [0.1; 3]);
+        let facts = match self.facts(filename, part) {
+            Ok(Some(facts)) => facts,
+            Ok(None) => return Ok(any),
+            Err(fault) => {
+                self.effects.refuse_mendable(filename, fault);
+                return Ok(any);
+            }
         };
         let volume = facts.measures.volume * scale.iter().product::<f64>().abs();
         if let Some(why) = bad(&facts, volume, self.release) {
-            return self.effects.refuse(filename, Fault::Mesh(why));
+            self.effects.refuse_mendable(filename, Fault::Mesh(why));
+            return Ok(any);
         }
         let size = [0, 1, 2].map(|axis| facts.measures.size[axis] * scale[axis]);
         // Without triangles the convex hull counts.
@@ -259,11 +264,35 @@ impl MujocoReader<'_> {
         Ok(Solid::cuboid(volume, size))
     }
 
-    fn missing<T>(&mut self, filename: &Attribute<'_>) -> Reading<T> {
-        let is_moved = !self.settings.mesh_folder.is_empty()
-            && matches!(self.file.mesh(&filename.value), Mesh::Found(_));
-        let what = if is_moved { "mesh, in the folder of MuJoCo's `meshdir`," } else { "mesh" };
-        self.effects.refuse(filename, Fault::NotFound(what))
+    /// What is in the file of a mesh, or why it is refused; none if that is not known.
+    fn facts(
+        &mut self,
+        filename: &Attribute<'_>,
+        part: &Part,
+    ) -> Result<Option<Arc<MeshFacts>>, Fault> {
+        let name = &*filename.value;
+        if name.is_empty() {
+            return Err(Fault::Empty("filename"));
+        }
+        let strips = self.settings.strips_paths.unwrap_or(self.release == Release::Three);
+        if name.contains("://") && !strips {
+            let why = "MuJoCo takes `scheme://` as a folder; write a path from the URDF's folder";
+            return Err(Fault::ForOthers(why));
+        }
+        if !self.has_known_ending(name) {
+            return Err(format_fault(name));
+        }
+        match self.found(filename, part, strips) {
+            Mesh::Unknown | Mesh::NoPackage => Ok(None),
+            Mesh::Found(facts) => Ok(Some(facts)),
+            Mesh::Missing => {
+                let is_moved = !self.settings.mesh_folder.is_empty()
+                    && matches!(self.file.mesh(name), Mesh::Found(_));
+                let what =
+                    if is_moved { "mesh, in the folder of MuJoCo's `meshdir`," } else { "mesh" };
+                Err(Fault::NotFound(what))
+            }
+        }
     }
 
     /// Whether a name ends as those of formats that it reads.

@@ -66,39 +66,39 @@ impl MujocoReader<'_> {
     fn robot(&mut self, robot: Node<'_>) -> Reading<()> {
         self.readable(robot, "robot", robot.value("name").unwrap_or_default());
         self.settings(robot)?;
-        self.materials(robot)?;
+        self.materials(robot);
         let mut links = self.links(robot)?;
-        self.tree(robot, &mut links)?;
-        let mut bodies = Vec::with_capacity(links.len());
-        for link in &links {
-            bodies.push(self.link(link.node, link.name)?);
-        }
-        let mut joints = Vec::new();
+        // Links and joints are read one by one, whatever they are together.
+        let _ = self.tree(robot, &mut links);
+        let bodies: Vec<Option<Body>> =
+            links.iter().map(|link| self.link(link.node, link.name).ok()).collect();
         let mut names = HashSet::new();
-        for node in robot.named("joint") {
-            joints.push(self.joint(node, &mut names)?);
-        }
-        self.mimics(&joints)?;
-        self.bodies(&links, &bodies, &joints)
+        let joints: Vec<Option<Joint<'_>>> =
+            robot.named("joint").map(|node| self.joint(node, &mut names).ok()).collect();
+        self.effects.are_read(0)?;
+        let (bodies, joints) = (bodies.into_iter().flatten(), joints.into_iter().flatten());
+        let (bodies, joints): (Vec<Body>, Vec<Joint<'_>>) = (bodies.collect(), joints.collect());
+        self.mimics(&joints);
+        self.bodies(&links, &bodies, &joints);
+        self.effects.are_read(0)
     }
 
     /// Materials, wherever they are; of each name the first that has a colour.
-    fn materials(&mut self, robot: Node<'_>) -> Reading<()> {
+    fn materials(&mut self, robot: Node<'_>) {
         let mut known = HashSet::new();
         let mut open = vec![robot];
         while let Some(node) = open.pop() {
             if let Some(name) =
                 node.value("name").filter(|name| node.name() == "material" && !known.contains(name))
-                && let Some(color) = self.only(node, "color")?
+                && let Ok(Some(color)) = self.only(node, "color")
             {
-                self.color(color)?;
+                let _ = self.color(color);
                 known.insert(name);
             }
             let before = open.len();
             open.extend(node.children());
             open[before..].reverse();
         }
-        Ok(())
     }
 
     fn links<'t>(&mut self, robot: Node<'t>) -> Reading<Vec<Link<'t>>> {
@@ -154,7 +154,7 @@ impl MujocoReader<'_> {
     }
 
     /// What is asked of bodies when all are known.
-    fn bodies(&mut self, links: &[Link<'_>], bodies: &[Body], joints: &[Joint<'_>]) -> Reading<()> {
+    fn bodies(&mut self, links: &[Link<'_>], bodies: &[Body], joints: &[Joint<'_>]) {
         let moving = |link: &Link<'_>| {
             link.above.and_then(|(joint, _)| joints.get(joint)).filter(|joint| joint.moves())
         };
@@ -169,21 +169,20 @@ impl MujocoReader<'_> {
                 continue;
             };
             if link.name == "world" {
-                return self.effects.refuse(joint.node, Fault::world());
+                self.effects.refuse_mendable(joint.node, Fault::world());
             }
             if joint.kind == "floating" && !on_static {
                 let fault = Fault::Tree("a floating joint is below a joint that moves");
-                return self.effects.refuse(joint.node, fault);
+                self.effects.refuse_mendable(joint.node, fault);
             }
             self.finite_inertial(link, false);
             let inertial = link.node.child("inertial").unwrap_or(link.node);
-            let sum = self.fused(index, inertial, links, bodies, joints)?;
+            let Ok(sum) = self.fused(index, inertial, links, bodies, joints) else { continue };
             if link::is_light(&sum) {
                 let fault = Fault::Inertia("a link that a joint moves has no mass, or no inertia");
-                return self.effects.refuse(inertial, fault);
+                self.effects.refuse_mendable(inertial, fault);
             }
         }
-        Ok(())
     }
 
     /// A link that no joint moves.

@@ -138,7 +138,7 @@ struct Links<'t> {
 
 impl PybulletReader<'_> {
     fn robot(&mut self, robot: Node<'_>) -> Reading<()> {
-        self.named(robot, "robot")?;
+        let _ = self.named(robot, "robot");
         for material in robot.named("material") {
             let name = material.value("name").unwrap_or_default();
             let part = Part::of("material", name);
@@ -167,18 +167,21 @@ impl PybulletReader<'_> {
             known.are_same = known.first.is_same(&known.last);
         }
         let mut links = Links::default();
+        let mut are_unique = Ok(());
         for link in robot.named("link") {
             let name = self.named(link, "link")?;
             if links.places.insert(name, links.all.len()).is_some() {
-                return self.effects.refuse(link, Fault::not_unique("link", name));
+                are_unique = self.effects.refuse(link, Fault::not_unique("link", name));
             }
             links.all.push((name, link));
-            self.link(link, name)?;
+            self.link(link, name);
         }
         if links.all.is_empty() {
             return self.effects.refuse(robot, Fault::MissingElement("link"));
         }
-        self.joints(robot, &links)
+        let joints = self.joints(robot, &links)?;
+        are_unique?;
+        self.tree(robot, &links, &joints)
     }
 
     /// The name of the robot, of a link or of a joint.
@@ -202,36 +205,36 @@ impl PybulletReader<'_> {
         }
     }
 
-    fn link(&mut self, link: Node<'_>, name: &str) -> Reading<()> {
+    fn link(&mut self, link: Node<'_>, name: &str) {
         let part = Part::of("link", name);
-        match link.child("inertial") {
-            Some(inertial) => self.inertial(inertial, &part.inside("inertial"))?,
-            None if name == "world" => {}
+        let _ = match link.child("inertial") {
+            Some(inertial) => self.inertial(inertial, &part.inside("inertial")),
+            None if name == "world" => Ok(()),
             None if name.contains("%s") || name.contains("%n") => {
                 let rule = "a warning about its missing inertial takes it for a format";
-                return self.effects.crash(link, Fault::name("link", name, rule));
+                self.effects.crash(link, Fault::name("link", name, rule))
             }
             None => {
                 let fault = Fault::Way("the link has no `<inertial>`");
                 self.effects.read_as(link, part.inside("inertial"), fault, "mass 1");
+                Ok(())
             }
-        }
+        };
         for kind in ["visual", "collision"] {
             for (shape, part) in part.shapes(link, kind) {
-                self.shape(shape, &part)?;
+                let _ = self.shape(shape, &part);
             }
         }
         // PyBullet's own elements.
         let contact = link.child("contact");
         for of in contact.into_iter().flat_map(Node::children) {
             if CONTACT.split(' ').any(|one| one == of.name()) {
-                self.effects.needed(of, "value")?;
+                let _ = self.effects.needed(of, "value");
             }
         }
-        let mut data = link.named("bullet").flat_map(|bullet| bullet.named("user-data"));
-        match data.find(|data| data.attribute("key").is_none()) {
-            Some(data) => self.effects.crash(data, Fault::Missing("key")),
-            None => Ok(()),
+        let data = link.named("bullet").flat_map(|bullet| bullet.named("user-data"));
+        for data in data.filter(|data| data.attribute("key").is_none()) {
+            let _ = self.effects.crash::<()>(data, Fault::Missing("key"));
         }
     }
 

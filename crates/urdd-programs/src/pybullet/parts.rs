@@ -27,7 +27,7 @@ impl PybulletReader<'_> {
             match name {
                 "size" => self.vector(value, part),
                 "radius" | "length" => self.number(value, part),
-                "filename" => self.mesh(form, value, part)?,
+                "filename" => self.mesh(form, value, part),
                 _ => {}
             }
         }
@@ -53,7 +53,7 @@ impl PybulletReader<'_> {
         Ok(())
     }
 
-    fn mesh(&mut self, mesh: Node<'_>, filename: &Attribute<'_>, part: &Part) -> Reading<()> {
+    fn mesh(&mut self, mesh: Node<'_>, filename: &Attribute<'_>, part: &Part) {
         if let Some(scale) = mesh.attribute("scale") {
             match pieces(&scale.value).len() {
                 0..3 => {
@@ -68,10 +68,11 @@ impl PybulletReader<'_> {
         let end = name.len().checked_sub(4).and_then(|at| name.get(at..)).unwrap_or("");
         let end = end.to_ascii_lowercase();
         if name.len() <= 4 || ![".dae", ".stl", ".obj", ".cdf", ".vtk"].contains(&&*end) {
-            return self.effects.refuse(filename, FORMAT);
+            return self.effects.refuse_mendable(filename, format_fault(name));
         }
         let fault = match self.found(name) {
-            Mesh::Unknown => return Ok(()),
+            Mesh::Unknown => return,
+            Mesh::NoPackage => NO_PACKAGE,
             Mesh::Missing if matches!(self.file.mesh(name), Mesh::Found(_)) => {
                 let why =
                     "its package is in no folder above the file, and only there the program looks";
@@ -80,7 +81,7 @@ impl PybulletReader<'_> {
             Mesh::Missing => Fault::NotFound("mesh"),
             Mesh::Found(facts) => return self.content(filename, &end, &facts, part),
         };
-        self.effects.refuse(filename, fault)
+        self.effects.refuse_mendable(filename, fault);
     }
 
     /// A mesh by its path, without scheme, in the folder of the file and in those above.
@@ -97,44 +98,37 @@ impl PybulletReader<'_> {
         let places = (0..FOLDERS).map(|up| self.file.mesh(&format!("{}{path}", "../".repeat(up))));
         let found = absolute.into_iter().chain(places).find(|mesh| !matches!(mesh, Mesh::Missing));
         match (found, in_package.map(|_| self.file.mesh(name))) {
-            (Some(mesh), _) | (None, Some(mesh @ Mesh::Unknown)) => mesh,
+            (Some(mesh), _) | (None, Some(mesh @ (Mesh::Unknown | Mesh::NoPackage))) => mesh,
             _ => Mesh::Missing,
         }
     }
 
     /// What is wrong in a mesh file loses the mesh.
-    fn content(
-        &mut self,
-        filename: &Attribute<'_>,
-        end: &str,
-        facts: &MeshFacts,
-        part: &Part,
-    ) -> Reading<()> {
+    fn content(&mut self, filename: &Attribute<'_>, end: &str, facts: &MeshFacts, part: &Part) {
         let why = match (end, &facts.stl, &facts.obj, &facts.collada) {
-            (".stl", Some(stl), ..) if stl.binary.is_some_and(|count| count > 0) => return Ok(()),
+            (".stl", Some(stl), ..) if stl.binary.is_some_and(|count| count > 0) => return,
             (".stl", ..) => "the mesh is no binary STL file with triangles",
-            (".obj", _, Some(obj), _) if obj.triangles > 0 && !obj.has_bad_index => return Ok(()),
+            (".obj", _, Some(obj), _) if obj.triangles > 0 && !obj.has_bad_index => return,
             (".obj", ..) => "the mesh is no OBJ file with triangles of its vertices",
             (".dae", .., Some(collada)) if !collada.is_complete => {
                 let why = "the mesh has no `<asset>` or no `<library_geometries>`";
-                return self.effects.crash(filename, Fault::Mesh(why));
+                return self.effects.crash_mendable(filename, Fault::Mesh(why));
             }
-            (".dae", .., Some(collada)) if collada.triangles > 0 && collada.has_scene => {
-                return Ok(());
+            (".dae", .., Some(collada)) if collada.has_text => {
+                return self.effects.drop(filename, part, HAS_MORE);
             }
+            (".dae", .., Some(collada)) if collada.triangles > 0 && collada.has_scene => return,
             (".dae", ..) => "the mesh is no COLLADA file with a scene of triangles",
             _ => {
                 let fault = Fault::ForOthers("the format is not for meshes of links");
-                self.effects.drop(filename, part, fault);
-                return Ok(());
+                return self.effects.drop(filename, part, fault);
             }
         };
         self.effects.drop(filename, part, Fault::Mesh(why));
-        Ok(())
     }
 }
 
-struct Joint<'t> {
+pub struct Joint<'t> {
     node: Node<'t>,
     name: &'t str,
     parent: &'t str,
@@ -142,17 +136,20 @@ struct Joint<'t> {
 }
 
 impl PybulletReader<'_> {
-    pub fn joints(&mut self, robot: Node<'_>, links: &Links<'_>) -> Reading<()> {
+    pub fn joints<'t>(&mut self, robot: Node<'t>, links: &Links<'_>) -> Reading<Vec<Joint<'t>>> {
         let mut names = HashSet::new();
         let mut joints = Vec::new();
+        let before = self.effects.unread_parts();
         for node in robot.named("joint") {
-            let joint = self.joint(node, links)?;
+            let Ok(joint) = self.joint(node, links) else { continue };
             if !names.insert(joint.name) {
-                return self.effects.crash(node, Fault::not_unique("joint", joint.name));
+                let fault = Fault::not_unique("joint", joint.name);
+                self.effects.crash_mendable(node, fault);
             }
             joints.push(joint);
         }
-        self.tree(robot, links, &joints)
+        self.effects.are_read(before)?;
+        Ok(joints)
     }
 
     fn joint<'t>(&mut self, node: Node<'t>, links: &Links<'_>) -> Reading<Joint<'t>> {
@@ -177,15 +174,15 @@ impl PybulletReader<'_> {
             }
             kind => {
                 if let Some(axis) = axis {
-                    self.axis(axis, kind, &part.inside("axis"))?;
+                    self.axis(axis, kind, &part.inside("axis"));
                 }
             }
         }
-        self.limit(node, &kind.value, &part.inside("limit"))?;
+        self.limit(node, &kind.value, &part.inside("limit"));
         if let Some(dynamics) = node.child("dynamics") {
             let values = ["damping", "friction"].map(|name| dynamics.attribute(name));
             if values.iter().all(Option::is_none) {
-                return self.effects.refuse(dynamics, NO_DYNAMICS);
+                self.effects.refuse_mendable(dynamics, NO_DYNAMICS);
             }
             for value in values.into_iter().flatten() {
                 self.number(value, &part.inside("dynamics"));
@@ -211,33 +208,32 @@ impl PybulletReader<'_> {
         }
     }
 
-    fn axis(&mut self, axis: Node<'_>, kind: &str, part: &Part) -> Reading<()> {
+    fn axis(&mut self, axis: Node<'_>, kind: &str, part: &Part) {
         let Some(xyz) = axis.attribute("xyz") else {
-            self.effects.read_as(axis, part, Fault::Missing("xyz"), "whatever the memory has");
-            return Ok(());
+            let makes = "whatever the memory has";
+            return self.effects.read_as(axis, part, Fault::Missing("xyz"), makes);
         };
         let pieces = pieces(&xyz.value);
         if pieces.len() < 3 {
-            return self.effects.refuse(xyz, Fault::count(xyz, 3));
+            return self.effects.refuse_mendable(xyz, Fault::count(xyz, 3));
         }
         if kind == "spherical" {
-            self.effects.drop(axis, part, Fault::Way("a spherical joint has no axis"));
-            return Ok(());
+            let fault = Fault::Way("a spherical joint has no axis");
+            return self.effects.drop(axis, part, fault);
         }
         self.vector(xyz, part);
         if pieces[..3].iter().all(|piece| atof(piece) == 0.0) {
             self.effects.read_as(xyz, part, Fault::range(xyz, "an axis needs a length"), "nan");
         }
-        Ok(())
     }
 
-    fn limit(&mut self, joint: Node<'_>, kind: &str, part: &Part) -> Reading<()> {
+    fn limit(&mut self, joint: Node<'_>, kind: &str, part: &Part) {
         let needs_limit = matches!(kind, "revolute" | "prismatic");
         let Some(limit) = joint.child("limit") else {
-            return match needs_limit {
-                true => self.effects.refuse(joint, Fault::MissingElement("limit")),
-                false => Ok(()),
-            };
+            if needs_limit {
+                self.effects.refuse_mendable(joint, Fault::MissingElement("limit"));
+            }
+            return;
         };
         let values = ["lower", "upper", "effort", "velocity"].map(|name| limit.attribute(name));
         for value in values.into_iter().flatten() {
@@ -253,10 +249,14 @@ impl PybulletReader<'_> {
             };
             self.effects.read_as(limit, part, fault, "no limit");
         }
-        Ok(())
     }
 
-    fn tree(&mut self, robot: Node<'_>, links: &Links<'_>, joints: &[Joint<'_>]) -> Reading<()> {
+    pub fn tree(
+        &mut self,
+        robot: Node<'_>,
+        links: &Links<'_>,
+        joints: &[Joint<'_>],
+    ) -> Reading<()> {
         let mut below: HashMap<&str, Vec<&Joint>> = HashMap::new();
         for joint in joints {
             below.entry(joint.parent).or_default().push(joint);

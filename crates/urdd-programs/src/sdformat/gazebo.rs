@@ -140,24 +140,19 @@ fn stoi(text: &str) -> Option<f64> {
 }
 
 /// The names of the robot, and of links and joints that are kept, or are SDF in a `<gazebo>`: `own`.
-pub fn names(
-    robot: Node<'_>,
-    links: &Tree<'_>,
-    own: &[Node<'_>],
-    effects: &mut Effects,
-) -> Reading<()> {
+pub fn names(robot: Node<'_>, links: &Tree<'_>, own: &[Node<'_>], effects: &mut Effects) {
     let release = links.release;
     let one = |node, kind, name, effects: &mut Effects| one(node, kind, name, release, effects);
-    one(robot, "robot", robot.value("name").unwrap_or_default(), effects)?;
+    one(robot, "robot", robot.value("name").unwrap_or_default(), effects);
     let mut names = HashSet::new();
     let bodies = || links.bodies.iter().filter(|body| body.is_made);
     let joints = bodies().filter_map(|body| body.joint.as_ref());
     let joints = joints.filter(|joint| !joint.has_no_type());
     let all = bodies().map(|body| (body.node, "link", body.name));
     for (node, kind, name) in all.chain(joints.map(|joint| (joint.node, "joint", joint.name))) {
-        one(node, kind, name, effects)?;
+        let is_fine = one(node, kind, name, effects);
         let read = release.read(name);
-        if read != name {
+        if read != name && is_fine {
             let rule = match release {
                 Release::Twelve => "white space around it is cut off, `true` is 1 and `false` 0",
                 Release::Fourteen => "white space around it is cut off",
@@ -165,7 +160,7 @@ pub fn names(
             effects.read_as(node, Part::of(kind, name), Fault::name(kind, name, rule), read);
         }
         if !names.insert(read) {
-            return effects.refuse(node, Fault::not_unique("link or joint", name));
+            effects.refuse_mendable(node, Fault::not_unique("link or joint", name));
         }
     }
     let of_name = |name| {
@@ -175,25 +170,24 @@ pub fn names(
     for (body, from) in links.frames() {
         for (node, kind, name) in [(body.node, "link", body.name), (from.node, "joint", from.name)]
         {
-            one(node, kind, name, effects)?;
+            one(node, kind, name, effects);
             if !names.insert(release.read(name)) {
                 // Where a joint and a link have one name, the joint is named.
                 let fault = Fault::not_unique("link or joint", name);
-                return effects.refuse(of_name(name).unwrap_or(node), fault);
+                effects.refuse_mendable(of_name(name).unwrap_or(node), fault);
             }
         }
     }
     let own = || own.iter().filter_map(|&node| Some((node, node.value("name")?)));
     for (node, name) in own() {
-        one(node, if node.name() == "link" { "link" } else { "joint" }, name, effects)?;
+        one(node, if node.name() == "link" { "link" } else { "joint" }, name, effects);
         if !names.insert(release.read(name)) {
-            return effects.refuse(node, Fault::not_unique("link or joint", name));
+            effects.refuse_mendable(node, Fault::not_unique("link or joint", name));
         }
     }
     for (node, name) in own().filter(|(node, _)| node.name() == "joint") {
-        own_joint(node, name, &names, release, effects)?;
+        let _ = own_joint(node, name, &names, release, effects);
     }
-    Ok(())
 }
 
 /// A joint of SDF: its type, and the links, or joints in their place, that it connects.
@@ -228,28 +222,30 @@ fn own_joint(
     Ok(())
 }
 
+/// Whether a name is one that a part can have.
 fn one(
     node: Node<'_>,
     kind: &'static str,
     name: &str,
     release: Release,
     effects: &mut Effects,
-) -> Reading<()> {
+) -> bool {
     let read = release.read(name);
     let is_reserved = name == "world"
         || read == "world"
         || read.len() >= 4 && read.starts_with("__") && read.ends_with("__");
     let at = node.attribute("name").map_or(node.start(), |name| name.range.start);
-    if read.is_empty() {
-        return effects.refuse(at, Fault::Empty("name"));
-    }
-    if release.keeps(name) {
-        return effects.refuse(at, reserved(kind, name));
-    }
-    if is_reserved {
-        return effects.refuse(at, Fault::name(kind, name, "the name is one of SDF's own"));
-    }
-    Ok(())
+    let fault = if read.is_empty() {
+        Fault::Empty("name")
+    } else if release.keeps(name) {
+        reserved(kind, name)
+    } else if is_reserved {
+        Fault::name(kind, name, "the name is one of SDF's own")
+    } else {
+        return true;
+    };
+    effects.refuse_mendable(at, fault);
+    false
 }
 
 /// Why a name of a kind of thing is refused that has `::` in it.

@@ -54,27 +54,28 @@ fn read(file: &File, release: Release, effects: &mut Effects) -> Reading<()> {
     rewritten(file.bytes, tree, effects)?;
     let model = urdfdom::model(tree, urdfdom::Release::Four, effects)?;
     let extensions = gazebo::read(model.robot, release, effects)?;
-    origin(model.robot, effects)?;
+    let _ = origin(model.robot, effects);
     never_read(&model, release, effects);
     let mut links = Tree::new(&model, &extensions.kept_joints, release);
     links.build(effects)?;
-    gazebo::names(model.robot, &links, &extensions.own, effects)?;
+    gazebo::names(model.robot, &links, &extensions.own, effects);
     for (index, body) in links.bodies.iter().enumerate() {
         match body.is_made {
             true => {
-                centre(body, links.without_mass, effects)?;
-                made(body, release, || links.spoiler(index), effects)?;
+                centre(body, links.without_mass, effects);
+                made(body, release, || links.spoiler(index), effects);
             }
-            false if links.bodies[body.owner].is_made => shapes(body, release, effects)?,
+            false if links.bodies[body.owner].is_made => shapes(body, release, effects),
             false => {}
         }
     }
-    mimics(&links, &extensions.own, effects)?;
-    suspects(&links, &extensions, effects)
+    mimics(&links, &extensions.own, effects);
+    suspects(&links, &extensions, effects);
+    Ok(())
 }
 
 /// What goes wrong in `<gazebo>` of something that is kept.
-fn suspects(links: &Tree<'_>, extensions: &Extensions<'_>, effects: &mut Effects) -> Reading<()> {
+fn suspects(links: &Tree<'_>, extensions: &Extensions<'_>, effects: &mut Effects) {
     let made = || links.bodies.iter().filter(|body| body.is_made);
     let joints: HashSet<&str> = made().filter_map(|body| Some(body.joint.as_ref()?.name)).collect();
     for suspect in &extensions.suspects {
@@ -89,10 +90,9 @@ fn suspects(links: &Tree<'_>, extensions: &Extensions<'_>, effects: &mut Effects
             }
         };
         if is_read {
-            return effects.refuse(suspect.at, suspect.fault.clone());
+            effects.refuse_mendable(suspect.at, suspect.fault.clone());
         }
     }
-    Ok(())
 }
 
 const NOT_WRITABLE: &str = "the number is too large or too small";
@@ -152,42 +152,38 @@ fn made<'t>(
     release: Release,
     spoiler: impl FnOnce() -> Node<'t>,
     effects: &mut Effects,
-) -> Reading<()> {
+) {
     if let Some(joint) = &body.joint {
-        made_joint(joint, effects)?;
+        made_joint(joint, effects);
     }
-    shapes(body, release, effects)?;
+    shapes(body, release, effects);
     if body.inertia.is_some_and(|inertia| !inertia.is_valid()) {
         let link = spoiler();
         let place = link.child("inertial").unwrap_or(link);
         let inertia = place.child("inertia").unwrap_or(place);
-        return effects.refuse(inertia, Fault::Inertia("no body can have this inertia"));
+        effects.refuse_mendable(inertia, Fault::Inertia("no body can have this inertia"));
     }
-    Ok(())
 }
 
 /// The centre of mass, which links without mass can take away.
-fn centre(body: &Body<'_>, without_mass: Option<usize>, effects: &mut Effects) -> Reading<()> {
+fn centre(body: &Body<'_>, without_mass: Option<usize>, effects: &mut Effects) {
     let center = body.inertia.unwrap_or_default().pose.xyz;
-    match without_mass {
-        Some(at) if !center.into_iter().all(f64::is_finite) => {
-            let fault =
-                Fault::Inertia("fixed joints join links of mass 0, which have no centre of mass");
-            effects.refuse(at, fault)
-        }
-        _ => Ok(()),
+    if let Some(at) = without_mass.filter(|_| !center.into_iter().all(f64::is_finite)) {
+        let fault =
+            Fault::Inertia("fixed joints join links of mass 0, which have no centre of mass");
+        effects.refuse_mendable(at, fault);
     }
 }
 
-fn made_joint(joint: &Joint<'_>, effects: &mut Effects) -> Reading<()> {
+fn made_joint(joint: &Joint<'_>, effects: &mut Effects) {
     let node = joint.node;
     let part = Part::of("joint", joint.name).inside("limit");
-    writable(node.child("origin"), &["xyz"], effects)?;
-    writable(node.child("dynamics"), &["damping", "friction"], effects)?;
+    writable(node.child("origin"), &["xyz"], effects);
+    writable(node.child("dynamics"), &["damping", "friction"], effects);
     let ends: &[&str] = if joint.kind == "continuous" { &[] } else { &["lower", "upper"] };
     if let Some(limit) = node.child("limit") {
-        writable(Some(limit), ends, effects)?;
-        writable(Some(limit), &["effort", "velocity"], effects)?;
+        writable(Some(limit), ends, effects);
+        writable(Some(limit), &["effort", "velocity"], effects);
         let value = |name| limit.attribute(name).and_then(|one| number(&one.value));
         let is_limited = matches!(joint.kind, "revolute" | "prismatic");
         if is_limited && value("lower").unwrap_or(0.0) > value("upper").unwrap_or(0.0) {
@@ -199,24 +195,25 @@ fn made_joint(joint: &Joint<'_>, effects: &mut Effects) -> Reading<()> {
             }
         }
     }
-    let Some(axis) = node.child("axis").filter(|_| joint.kind != "fixed") else { return Ok(()) };
+    let Some(axis) = node.child("axis").filter(|_| joint.kind != "fixed") else { return };
     let xyz = axis.attribute("xyz");
     let length = xyz.and_then(|xyz| vector(&xyz.value)).unwrap_or_default();
     // Compared with 1e-6 as a number of 32 bits.
     if length.into_iter().map(|part| part * part).sum::<f64>().sqrt() <= f64::from(1e-6_f32) {
-        return match xyz {
-            None => effects.refuse(axis, Fault::Missing("xyz")),
-            Some(xyz) => effects.refuse(xyz, Fault::range(xyz, "an axis has no length 0")),
-        };
+        match xyz {
+            None => effects.refuse_mendable(axis, Fault::Missing("xyz")),
+            Some(xyz) => {
+                effects.refuse_mendable(xyz, Fault::range(xyz, "an axis has no length 0"));
+            }
+        }
     }
-    Ok(())
 }
 
 /// Mimics, from 14 on. Each follows a joint that is kept, or one of SDF with an axis.
-fn mimics(links: &Tree<'_>, own: &[Node<'_>], effects: &mut Effects) -> Reading<()> {
+fn mimics(links: &Tree<'_>, own: &[Node<'_>], effects: &mut Effects) {
     let release = links.release;
     if release == Release::Twelve {
-        return Ok(());
+        return;
     }
     let made = links.bodies.iter().filter(|body| body.is_made);
     let joints = made.filter_map(|body| body.joint.as_ref()).filter(|joint| !joint.has_no_type());
@@ -233,7 +230,7 @@ fn mimics(links: &Tree<'_>, own: &[Node<'_>], effects: &mut Effects) -> Reading<
         } else if name == release.read(joint.name) {
             Fault::Other("a joint mimics itself")
         } else if leaders.contains(name) {
-            writable(mimic, &["multiplier", "offset"], effects)?;
+            writable(mimic, &["multiplier", "offset"], effects);
             continue;
         } else if links
             .bodies
@@ -244,41 +241,39 @@ fn mimics(links: &Tree<'_>, own: &[Node<'_>], effects: &mut Effects) -> Reading<
         } else {
             Fault::unknown("joint", name)
         };
-        return effects.refuse(leader, fault);
+        effects.refuse_mendable(leader, fault);
     }
-    Ok(())
 }
 
 /// The numbers and files of a link that is kept or merged into such a link.
-fn shapes(body: &Body<'_>, release: Release, effects: &mut Effects) -> Reading<()> {
+fn shapes(body: &Body<'_>, release: Release, effects: &mut Effects) {
     if let Some(inertial) = body.node.child("inertial").filter(|_| body.is_made) {
-        writable(inertial.child("origin"), &["xyz"], effects)?;
-        writable(inertial.child("mass"), &["value"], effects)?;
-        writable(inertial.child("inertia"), &MOMENTS, effects)?;
+        writable(inertial.child("origin"), &["xyz"], effects);
+        writable(inertial.child("mass"), &["value"], effects);
+        writable(inertial.child("inertia"), &MOMENTS, effects);
     }
     for (kind, count) in ["visual", "collision"].into_iter().zip(body.kept) {
         for shape in body.node.named(kind).take(count) {
             if let Some(name) = shape.attribute("name").filter(|name| release.keeps(&name.value)) {
-                return effects.refuse(name, gazebo::reserved(kind, &name.value));
+                effects.refuse_mendable(name, gazebo::reserved(kind, &name.value));
             }
-            writable(shape.child("origin"), &["xyz"], effects)?;
+            writable(shape.child("origin"), &["xyz"], effects);
             let form = shape.child("geometry").and_then(|geometry| geometry.children().next());
             if form.is_some_and(|form| matches!(form.name(), "sphere" | "cylinder")) {
-                writable(form, &["radius", "length"], effects)?;
+                writable(form, &["radius", "length"], effects);
             }
             let mesh = form.filter(|form| form.name() == "mesh");
             if let Some(name) = mesh.and_then(|mesh| mesh.attribute("filename"))
                 && release.read(&name.value).is_empty()
             {
-                return effects.refuse(name, Fault::Empty("filename"));
+                effects.refuse_mendable(name, Fault::Empty("filename"));
             }
         }
     }
-    Ok(())
 }
 
 /// Numbers are written with 16 digits and read with `stod`, which refuses the largest and the smallest.
-fn writable(node: Option<Node<'_>>, names: &[&str], effects: &mut Effects) -> Reading<()> {
+fn writable(node: Option<Node<'_>>, names: &[&str], effects: &mut Effects) {
     /// From here on, 16 digits are above what is a number.
     const MAX: f64 = 1.797_693_134_862_315_5e308;
     let fits = |number: f64| number == 0.0 || number.is_normal() && number.abs() < MAX;
@@ -286,10 +281,9 @@ fn writable(node: Option<Node<'_>>, names: &[&str], effects: &mut Effects) -> Re
     for value in attributes {
         let mut numbers = pieces(&value.value).filter_map(number);
         if !numbers.all(fits) {
-            return effects.refuse(value, Fault::range(value, NOT_WRITABLE));
+            effects.refuse_mendable(value, Fault::range(value, NOT_WRITABLE));
         }
     }
-    Ok(())
 }
 
 const NOT_UTF8: Fault = Fault::Xml("the file is not UTF-8, which it says or has by default");

@@ -70,8 +70,8 @@ impl<'t> ThreeReader<'_, 't> {
         let used: HashSet<&str> = of_visuals.iter().copied().map(name_of).collect();
         for material in named(robot, "material") {
             let known = self.effects.mark();
-            self.material(material, &Part::of("material", name_of(material)))?;
-            if !used.contains(name_of(material)) {
+            let is_read = self.material(material, &Part::of("material", name_of(material)));
+            if is_read && !used.contains(name_of(material)) {
                 // Nothing shows it.
                 self.effects.forget(known);
             }
@@ -89,9 +89,9 @@ impl<'t> ThreeReader<'_, 't> {
             let name = name_of(link);
             if name.contains(['"', '\n', '\r', '\u{c}']) {
                 let rule = "a name cannot have a quote or an end of a line";
-                return self.effects.refuse(link, Fault::name("link", name, rule));
+                self.effects.refuse_mendable(link, Fault::name("link", name, rule));
             }
-            self.link(link, &Part::of("link", name))?;
+            self.link(link, &Part::of("link", name));
             let is_root = !children.contains(name) || name.contains('\\');
             if let Some(root) = root.filter(|_| is_root) {
                 self.effects.drop(link, Part::of("link", name_of(root)), TWO_ROOTS);
@@ -107,7 +107,7 @@ impl<'t> ThreeReader<'_, 't> {
         let mut joints = HashMap::new();
         let mut all = Vec::new();
         for node in named(robot, "joint") {
-            let joint = self.joint(node, &links)?;
+            let joint = self.joint(node, &links);
             if let Some(other) = joints.insert(name_of(node), all.len())
                 && all.get(other).is_some_and(|other: &Joint| !other.node.is_like(node))
             {
@@ -195,12 +195,19 @@ impl<'t> ThreeReader<'_, 't> {
         Some(last)
     }
 
-    fn material(&mut self, material: Node<'t>, part: &Part) -> Reading<()> {
+    /// Whether a material is not refused.
+    fn material(&mut self, material: Node<'t>, part: &Part) -> bool {
+        let mut is_read = true;
         for color in named(material, "color") {
-            let Some(rgba) = color.attribute("rgba") else {
-                return self.effects.refuse(color, Fault::Missing("rgba"));
-            };
-            self.vector(rgba, rgba.value.split(char::is_whitespace), 4, part);
+            match color.attribute("rgba") {
+                Some(rgba) => {
+                    self.vector(rgba, rgba.value.split(char::is_whitespace), 4, part);
+                }
+                None => {
+                    is_read = false;
+                    self.effects.refuse_mendable(color, Fault::Missing("rgba"));
+                }
+            }
         }
         for texture in named(material, "texture") {
             match texture.attribute("filename").filter(|name| !name.value.is_empty()) {
@@ -211,10 +218,10 @@ impl<'t> ThreeReader<'_, 't> {
                 Some(_) => {}
             }
         }
-        Ok(())
+        is_read
     }
 
-    fn link(&mut self, link: Node<'t>, part: &Part) -> Reading<()> {
+    fn link(&mut self, link: Node<'t>, part: &Part) {
         if let Some(inertial) = named(link, "inertial").next() {
             let part = part.inside("inertial");
             self.pose(inertial, &part);
@@ -226,23 +233,22 @@ impl<'t> ThreeReader<'_, 't> {
             }
         }
         for (index, visual) in named(link, "visual").enumerate() {
-            self.visual(visual, &part.inside(format_args!("visual/{index}")))?;
+            self.visual(visual, &part.inside(format_args!("visual/{index}")));
         }
         for (index, collision) in named(link, "collision").enumerate() {
             let part = part.inside(format_args!("collision/{index}"));
             self.effects.unread(collision, part, "collision");
         }
-        Ok(())
     }
 
-    fn visual(&mut self, visual: Node<'t>, part: &Part) -> Reading<()> {
+    fn visual(&mut self, visual: Node<'t>, part: &Part) {
         if let Some(material) = named(visual, "material").next() {
             let name = material.value("name").unwrap_or_default();
             let part = part.inside("material");
             if let Some(read) = self.materials.get(name).filter(|_| !name.is_empty()) {
                 Look::compare(read.as_ref(), material, &part, self.effects);
             } else {
-                self.material(material, &part)?;
+                self.material(material, &part);
                 if material.children().next().is_none() && !self.whites.contains(name) {
                     let fault = Fault::unknown("material directly in `<robot>`", name);
                     self.effects.read_as(material, part, fault, "white");
@@ -255,12 +261,12 @@ impl<'t> ThreeReader<'_, 't> {
         }
         for geometry in named(visual, "geometry") {
             let Some(form) = geometry.children().next() else {
-                return self.effects.refuse(geometry, NO_SHAPE);
+                self.effects.refuse_mendable(geometry, NO_SHAPE);
+                continue;
             };
             self.shape(form, part);
             self.own_colours(visual, form, part);
         }
-        Ok(())
     }
 
     fn shape(&mut self, form: Node<'t>, part: &Part) {

@@ -5,31 +5,32 @@ use crate::prelude::*;
 use crate::three::{Joint, ThreeReader, name_of, named};
 
 impl<'t> ThreeReader<'_, 't> {
-    pub fn joint(&mut self, node: Node<'t>, links: &HashMap<&str, Node<'t>>) -> Reading<Joint<'t>> {
+    pub fn joint(&mut self, node: Node<'t>, links: &HashMap<&str, Node<'t>>) -> Joint<'t> {
         let part = Part::of("joint", name_of(node));
         let mimic = named(node, "mimic").next();
         if let Some(mimic) = mimic {
             self.numbers(mimic, &["multiplier", "offset"], &part.inside("mimic"), "NaN");
         }
         self.pose(node, &part);
-        let Some(parent) = self.last(node, "parent", &part) else {
-            return self.effects.refuse(node, Fault::MissingElement("parent"));
-        };
-        let link = parent.value("link").unwrap_or("null");
-        if !links.contains_key(link) {
-            return self.effects.refuse(parent, Fault::unknown("link", link));
+        let parent = self.last(node, "parent", &part);
+        let parent = parent.map(|parent| (parent, parent.value("link").unwrap_or("null")));
+        let is_known = parent.is_some_and(|(_, link)| links.contains_key(link));
+        match parent.filter(|_| !is_known) {
+            Some((end, link)) => self.effects.refuse_mendable(end, Fault::unknown("link", link)),
+            None if is_known => {}
+            None => self.effects.refuse_mendable(node, Fault::MissingElement("parent")),
         }
         let child = self.last(node, "child", &part);
         let link = child.map(|child| child.value("link").unwrap_or("null"));
-        if link.is_none_or(|link| !links.contains_key(link)) {
+        if is_known && link.is_none_or(|link| !links.contains_key(link)) {
             let fault = Fault::unknown("link", link.unwrap_or_default());
             self.effects.drop(child.unwrap_or(node), part.inside("child"), fault);
         }
         if let Some(axis) = named(node, "axis").next() {
-            let Some(xyz) = axis.attribute("xyz") else {
-                return self.effects.refuse(axis, Fault::Missing("xyz"));
-            };
-            self.axis(xyz, &part.inside("axis"));
+            match axis.attribute("xyz") {
+                Some(xyz) => self.axis(xyz, &part.inside("axis")),
+                None => self.effects.refuse_mendable(axis, Fault::Missing("xyz")),
+            }
         }
         self.limit(node, &part);
         for unread in ["dynamics", "calibration", "safety_controller"] {
@@ -37,7 +38,7 @@ impl<'t> ThreeReader<'_, 't> {
                 self.effects.unread(found, part.inside(unread), unread);
             }
         }
-        Ok(Joint { node, child: link, mimic })
+        Joint { node, child: link, mimic }
     }
 
     /// An axis is split at white space, which may be before the first number too.
@@ -95,7 +96,7 @@ impl<'t> ThreeReader<'_, 't> {
             let name = mimic.value("joint").unwrap_or("null");
             driver[index] = by_name.get(name).copied();
             if driver[index].is_none() {
-                return self.effects.refuse(mimic, Fault::unknown("joint", name));
+                self.effects.refuse_mendable(mimic, Fault::unknown("joint", name));
             }
         }
         let mut met = vec![NEW; joints.len()];
@@ -130,15 +131,16 @@ impl<'t> ThreeReader<'_, 't> {
         let ending = name.value.rsplit('.').next().unwrap_or_default();
         let ending = ending.to_ascii_lowercase();
         let fault = match self.file.mesh(&as_path(&name.value)) {
-            _ if !matches!(&*ending, "stl" | "dae") => FORMAT,
+            _ if !matches!(&*ending, "stl" | "dae") => format_fault(&name.value),
             _ if !packaged && (name.value.contains("://") || name.value.starts_with('/')) => {
                 Fault::ForOthers("only `package://` names a file that is not beside the URDF")
             }
             Mesh::Missing => Fault::NotFound("mesh"),
-            Mesh::Found(facts) if facts.begins_late() => BEGINS_LATE,
-            Mesh::Found(facts) if !is_mesh(&facts, &ending) => {
-                Fault::Mesh("the program cannot read the mesh")
-            }
+            Mesh::Found(facts) => match facts.leniency() {
+                Some(fault) => fault,
+                None if is_mesh(&facts, &ending) => return,
+                None => Fault::Mesh("the program cannot read the mesh"),
+            },
             _ => return,
         };
         self.effects.drop(name, part, fault);

@@ -9,7 +9,7 @@ use crate::urdfdom::{
 };
 
 impl UrdfdomReader<'_> {
-    pub fn materials(&mut self, robot: Node<'_>) -> Reading<()> {
+    pub fn materials(&mut self, robot: Node<'_>) {
         for material in robot.named("material") {
             let name = material.value("name").unwrap_or_default();
             let part = Part::of("material", name);
@@ -19,10 +19,11 @@ impl UrdfdomReader<'_> {
                 self.effects.read_as(material, part, Fault::Other(NO_COLOR), "black");
             }
             if self.materials.insert(name.to_owned(), Look::of(material)).is_some() {
-                return self.effects.refuse(material, Fault::not_unique("material", name));
+                self.effects.refuse_mendable(material, Fault::not_unique("material", name));
+                // Which of them is meant is not known.
+                self.materials.insert(name.to_owned(), None);
             }
         }
-        Ok(())
     }
 
     /// Whether a material has a colour or a texture.
@@ -60,7 +61,7 @@ impl UrdfdomReader<'_> {
                 }
             };
             if links.insert(name, Link { node, kept }).is_some() {
-                return self.effects.refuse(node, Fault::not_unique("link", name));
+                self.effects.refuse_mendable(node, Fault::not_unique("link", name));
             }
         }
         match links.is_empty() {
@@ -197,24 +198,28 @@ impl UrdfdomReader<'_> {
 }
 
 impl UrdfdomReader<'_> {
-    pub fn joints<'t>(&mut self, robot: Node<'t>) -> Reading<BTreeMap<&'t str, Joint<'t>>> {
+    /// The joints. One that is refused has its ends nevertheless.
+    pub fn joints<'t>(&mut self, robot: Node<'t>) -> BTreeMap<&'t str, Joint<'t>> {
         let mut joints = BTreeMap::new();
         for node in robot.named("joint") {
-            let (name, joint) = match self.joint(node) {
-                Ok(read) => read,
-                Err((at, fault)) => return self.effects.refuse(at, fault),
-            };
+            let kind = self.joint(node).unwrap_or_else(|(at, fault)| {
+                self.effects.refuse_mendable(at, fault);
+                ""
+            });
+            let end = |name| node.child(name).and_then(|end| end.value("link")).unwrap_or_default();
+            let name = node.value("name").unwrap_or_default();
+            let joint = Joint { node, kind, parent: end("parent"), child: end("child") };
             if joints.insert(name, joint).is_some() {
-                return self.effects.refuse(node, Fault::not_unique("joint", name));
+                let _ = self.effects.refuse::<()>(node, Fault::not_unique("joint", name));
             }
         }
-        Ok(joints)
+        joints
     }
 
-    fn joint<'t>(&mut self, node: Node<'t>) -> PartRead<(&'t str, Joint<'t>)> {
+    /// The type of a joint.
+    fn joint<'t>(&mut self, node: Node<'t>) -> PartRead<&'t str> {
         let name = &*needed(node, "name")?.value;
         self.pose(node)?;
-        let end = |name| node.child(name).and_then(|end| end.value("link")).unwrap_or_default();
         let kind = needed(node, "type")?;
         if !JOINT_TYPES.contains(&&*kind.value) {
             return Err((kind.range.start, Fault::value("type", &kind.value)));
@@ -255,8 +260,7 @@ impl UrdfdomReader<'_> {
             }
             numbers(dynamics, &["damping", "friction"])?;
         }
-        let (parent, child) = (end("parent"), end("child"));
-        Ok((name, Joint { node, kind: &kind.value, parent, child }))
+        Ok(&kind.value)
     }
 
     fn limit(&mut self, limit: Node<'_>, is_limited: bool, part: &Part) -> PartRead<()> {

@@ -41,8 +41,11 @@ pub fn read(file: &File, effects: &mut Effects) -> Reading<()> {
         }
     };
     let robot = effects.robot(tree)?;
+    let before = effects.unread_parts();
     parse::elements(robot, effects)?;
     let mut reader = UsdReader { file, effects, materials: HashMap::new() };
+    // Python reads all elements before it asks for what they mean.
+    reader.effects.are_read(before)?;
     reader.robot(robot)
 }
 
@@ -55,33 +58,33 @@ struct UsdReader<'r, 't> {
 
 impl<'t> UsdReader<'_, 't> {
     fn robot(&mut self, robot: Node<'t>) -> Reading<()> {
-        self.name(robot)?;
-        let links = self.unique(robot, "link")?;
-        let materials = self.unique(robot, "material")?;
-        let joints = self.joints(robot, &links)?;
+        self.name(robot);
+        let links = self.unique(robot, "link");
+        let materials = self.unique(robot, "material");
+        let joints = self.joints(robot, &links);
         for material in robot.named("material") {
             let name = material.value("name").unwrap_or_default();
-            self.look(material, &Part::of("material", name))?;
+            self.look(material, &Part::of("material", name));
         }
         let looks = materials.into_iter().map(|(name, node)| (name, (true, Look::of(node))));
         self.materials = looks.collect();
         for link in robot.named("link") {
-            self.materials_of(link)?;
+            self.materials_of(link);
         }
         let Some(first) = robot.child("link") else {
             return self.effects.refuse(robot, Fault::MissingElement("link"));
         };
-        let kept = tree::find(robot, first, &links, &joints, self.effects)?;
+        let kept = tree::find(robot, first, &links, &joints?, self.effects)?;
         for link in kept {
-            self.link(link)?;
+            self.link(link);
         }
         Ok(())
     }
 
     /// The robot's name is that of a file.
-    fn name(&mut self, robot: Node<'t>) -> Reading<()> {
+    fn name(&mut self, robot: Node<'t>) {
         const LONGEST: usize = 248;
-        let Some(attribute) = robot.attribute("name") else { return Ok(()) };
+        let Some(attribute) = robot.attribute("name") else { return };
         let name = &*attribute.value;
         let fault = Fault::name("robot", name, "it is the name of a file, too");
         if name.contains('\\') {
@@ -89,25 +92,20 @@ impl<'t> UsdReader<'_, 't> {
         }
         let has_slash = name.starts_with('/') || name.ends_with('/');
         if name.len() > LONGEST || has_slash || name.contains(char::is_control) {
-            return self.effects.refuse(attribute, fault);
+            self.effects.refuse_mendable(attribute, fault);
         }
-        Ok(())
     }
 
     /// The parts of one kind, by name.
-    fn unique(
-        &mut self,
-        robot: Node<'t>,
-        kind: &'static str,
-    ) -> Reading<HashMap<&'t str, Node<'t>>> {
+    fn unique(&mut self, robot: Node<'t>, kind: &'static str) -> HashMap<&'t str, Node<'t>> {
         let mut found = HashMap::new();
         for node in robot.named(kind) {
             let name = node.value("name").unwrap_or_default();
             if found.insert(name, node).is_some() {
-                return self.effects.refuse(node, Fault::not_unique(kind, name));
+                self.effects.refuse_mendable(node, Fault::not_unique(kind, name));
             }
         }
-        Ok(found)
+        found
     }
 
     /// Of elements that repeat it reads the last, also if it is empty.
@@ -128,8 +126,9 @@ impl<'t> UsdReader<'_, 't> {
         robot: Node<'t>,
         links: &HashMap<&'t str, Node<'t>>,
     ) -> Reading<Vec<Joint<'t>>> {
-        let by_name = self.unique(robot, "joint")?;
+        let by_name = self.unique(robot, "joint");
         let mut joints = Vec::new();
+        let before = self.effects.unread_parts();
         for node in robot.named("joint") {
             let name = node.value("name").unwrap_or_default();
             let kind = node.value("type").unwrap_or_default();
@@ -139,22 +138,25 @@ impl<'t> UsdReader<'_, 't> {
             });
             let (Some(parent), Some(child)) = (parent, child) else {
                 let end = if parent.is_none() { "parent" } else { "child" };
-                return self.effects.refuse(node, Fault::MissingElement(end));
+                let _ = self.effects.refuse::<()>(node, Fault::MissingElement(end));
+                continue;
             };
             for (end, link) in [parent, child] {
                 if !links.contains_key(link) {
-                    return self.effects.refuse(end, Fault::unknown("link", link));
+                    let _ = self.effects.refuse::<()>(end, Fault::unknown("link", link));
                 }
             }
             let mimicked = last(node, "mimic").and_then(|mimic| mimic.attribute("joint"));
             if let Some(mimicked) = mimicked.filter(|mimicked| !mimicked.value.is_empty())
                 && !by_name.contains_key(&*mimicked.value)
             {
-                return self.effects.refuse(mimicked, Fault::unknown("joint", &mimicked.value));
+                let fault = Fault::unknown("joint", &mimicked.value);
+                let _ = self.effects.refuse::<()>(mimicked, fault);
             }
             self.joint(node, kind, &Part::of("joint", name));
             joints.push(Joint { node, name, kind, parent: parent.1, child: child.1 });
         }
+        self.effects.are_read(before)?;
         Ok(joints)
     }
 
@@ -185,7 +187,7 @@ impl<'t> UsdReader<'_, 't> {
     }
 
     /// The materials of a link's visuals: the first of a name is that of all.
-    fn materials_of(&mut self, link: Node<'t>) -> Reading<()> {
+    fn materials_of(&mut self, link: Node<'t>) {
         let name = link.value("name").unwrap_or_default();
         for (visual, part) in Part::of("link", name).shapes(link, "visual") {
             let Some(material) = last(visual, "material") else { continue };
@@ -195,7 +197,7 @@ impl<'t> UsdReader<'_, 't> {
             if let Some((_, first)) = self.materials.get(name).filter(|_| !name.is_empty()) {
                 Look::compare(first.as_ref(), material, &part, self.effects);
             } else {
-                self.look(material, &part)?;
+                self.look(material, &part);
                 self.materials.insert(name, (has_look, Look::of(material)));
             }
             if !self.materials.get(name).map_or(has_look, |(has_look, _)| *has_look) {
@@ -203,18 +205,18 @@ impl<'t> UsdReader<'_, 't> {
                 self.effects.read_as(material, part, fault, "black and transparent");
             }
         }
-        Ok(())
     }
 
-    fn look(&mut self, material: Node<'t>, part: &Part) -> Reading<()> {
+    fn look(&mut self, material: Node<'t>, part: &Part) {
         if let Some(rgba) = last(material, "color").and_then(|color| color.attribute("rgba")) {
             let opacity = rgba.value.split_whitespace().nth(3).and_then(python).unwrap_or(1.0);
             if !opacity.is_nan() && !(0.0..=1.0).contains(&opacity) {
-                return self.effects.refuse(rgba, Fault::range(rgba, "opacity is from 0 to 1"));
+                let fault = Fault::range(rgba, "opacity is from 0 to 1");
+                self.effects.refuse_mendable(rgba, fault);
             }
         }
         let texture = last(material, "texture").and_then(|texture| texture.attribute("filename"));
-        let Some(texture) = texture.filter(|name| !name.value.is_empty()) else { return Ok(()) };
+        let Some(texture) = texture.filter(|name| !name.value.is_empty()) else { return };
         let name = &*texture.value;
         if let Some(color) = last(material, "color") {
             let fault = Fault::Other("the texture is in the place of the colour");
@@ -222,31 +224,28 @@ impl<'t> UsdReader<'_, 't> {
         }
         if is_elsewhere(name) || matches!(name, "." | "..") || name.ends_with('/') {
             let fault = Fault::Other("the name of the texture is not that of a file");
-            return self.effects.refuse(texture, fault);
-        }
-        if matches!(self.file.mesh(name), Mesh::Missing) {
+            self.effects.refuse_mendable(texture, fault);
+        } else if matches!(self.file.mesh(name), Mesh::Missing) {
             self.effects.drop(texture, part, Fault::NotFound("texture"));
         }
-        Ok(())
     }
 
-    fn link(&mut self, link: Node<'t>) -> Reading<()> {
+    fn link(&mut self, link: Node<'t>) {
         let part = Part::of("link", link.value("name").unwrap_or_default());
         self.repeated(link, "inertial", &part);
         if let Some(inertial) = last(link, "inertial") {
-            self.inertial(inertial, &part.inside("inertial"))?;
+            self.inertial(inertial, &part.inside("inertial"));
         }
         for kind in ["visual", "collision"] {
             for (shape, part) in part.shapes(link, kind) {
                 self.repeated(shape, "origin geometry material", &part);
                 self.pose(shape, &part);
-                self.shape(shape, &part)?;
+                self.shape(shape, &part);
             }
         }
-        Ok(())
     }
 
-    fn inertial(&mut self, inertial: Node<'t>, part: &Part) -> Reading<()> {
+    fn inertial(&mut self, inertial: Node<'t>, part: &Part) {
         self.repeated(inertial, "origin mass inertia", part);
         self.pose(inertial, part);
         let has = |name| inertial.child(name).is_some();
@@ -254,23 +253,21 @@ impl<'t> UsdReader<'_, 't> {
             self.effects.drop(inertial, part, Fault::Other("`<inertial>` is empty"));
         }
         // The principal axes of what is not finite are not found, but for some tensors that are not turned.
-        let Some(inertia) = last(inertial, "inertia") else { return Ok(()) };
+        let Some(inertia) = last(inertial, "inertia") else { return };
         let names: &[&str] = match has("origin") {
             true => &MOMENTS,
             false => &["ixz"],
         };
         for value in names.iter().filter_map(|name| inertia.attribute(name)) {
             if python(&value.value).is_some_and(|number| !number.is_finite()) {
-                return self.effects.refuse(value, Fault::range(value, "must be finite"));
+                self.effects.refuse_mendable(value, Fault::range(value, "must be finite"));
             }
         }
-        Ok(())
     }
 
-    fn shape(&mut self, shape: Node<'t>, part: &Part) -> Reading<()> {
+    fn shape(&mut self, shape: Node<'t>, part: &Part) {
         let Some(geometry) = last(shape, "geometry") else {
-            self.effects.drop(shape, part, Fault::MissingElement("geometry"));
-            return Ok(());
+            return self.effects.drop(shape, part, Fault::MissingElement("geometry"));
         };
         let shapes = ["box", "sphere", "cylinder", "mesh"];
         let Some(form) = geometry.children().filter(|form| shapes.contains(&form.name())).last()
@@ -279,26 +276,22 @@ impl<'t> UsdReader<'_, 't> {
                 Some(form) => self.effects.drop(form, part, Fault::Shape(form.name().into())),
                 None => self.effects.drop(geometry, part, NO_SHAPE),
             }
-            return Ok(());
+            return;
         };
         let needed: &[&'static str] = match form.name() {
             "sphere" => &["radius"],
             "cylinder" => &["radius", "length"],
-            "mesh" => {
-                self.mesh(form, part);
-                return Ok(());
-            }
+            "mesh" => return self.mesh(form, part),
             _ => &[],
         };
         for name in needed {
             if form.attribute(name).is_none() {
-                return self.effects.refuse(form, Fault::Missing(name));
+                self.effects.refuse_mendable(form, Fault::Missing(name));
             }
         }
         if form.name() == "box" && form.attribute("size").is_none() {
             self.effects.read_as(form, part, Fault::Missing("size"), "0 0 0");
         }
-        Ok(())
     }
 
     fn mesh(&mut self, mesh: Node<'t>, part: &Part) {
@@ -316,8 +309,8 @@ impl<'t> UsdReader<'_, 't> {
             _ if is_elsewhere(&name.value) => {
                 Some(Fault::ForOthers("the name of the mesh is not that of a file"))
             }
-            _ if !matches!(&*ending, "stl" | "obj" | "dae") => Some(FORMAT),
-            Mesh::Found(facts) if facts.begins_late() => Some(BEGINS_LATE),
+            _ if !matches!(&*ending, "stl" | "obj" | "dae") => Some(format_fault(&name.value)),
+            Mesh::Found(facts) if facts.leniency().is_some() => facts.leniency(),
             Mesh::Found(facts) => {
                 let has_faces = match &*ending {
                     "stl" => is_stl(&facts),

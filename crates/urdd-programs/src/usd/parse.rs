@@ -51,9 +51,9 @@ pub fn elements(robot: Node<'_>, effects: &mut Effects) -> Reading<()> {
             },
             None => place.is_kept,
         };
-        element(node, parent, effects)?;
+        let _ = element(node, parent, effects);
         if is_kept {
-            names_of_attributes(node, effects)?;
+            names_of_attributes(node, effects);
         }
         let above = parent.map(|_| node.name());
         let below =
@@ -130,22 +130,21 @@ fn element(node: Node<'_>, above: Option<&str>, effects: &mut Effects) -> Readin
         "parent" | "child" if node.attribute("link").is_none() => {
             return effects.refuse(node, Fault::Missing("link"));
         }
-        "joint" => axes(node, effects)?,
+        "joint" => axes(node, effects),
         _ => {}
     }
     scalars(node, numbers, effects)
 }
 
 /// An axis of length 0 is refused, but of a fixed joint.
-fn axes(joint: Node<'_>, effects: &mut Effects) -> Reading<()> {
+fn axes(joint: Node<'_>, effects: &mut Effects) {
     let axes = joint.named("axis").filter_map(|axis| axis.attribute("xyz"));
     for xyz in axes.filter(|_| joint.value("type") != Some("fixed")) {
         let numbers = xyz.value.split_whitespace().map(python);
         if numbers.fold(0, |zeros, number| zeros + usize::from(number == Some(0.0))) == 3 {
-            return effects.refuse(xyz, Fault::range(xyz, "an axis has no length 0"));
+            effects.refuse_mendable(xyz, Fault::range(xyz, "an axis has no length 0"));
         }
     }
-    Ok(())
 }
 
 fn scalars(node: Node<'_>, names: &[&str], effects: &mut Effects) -> Reading<()> {
@@ -173,7 +172,7 @@ fn vector(value: Option<&Attribute<'_>>, count: usize, effects: &mut Effects) ->
 }
 
 /// Attributes that URDF does not have become attributes of USD, which have no such names.
-fn names_of_attributes(node: Node<'_>, effects: &mut Effects) -> Reading<()> {
+fn names_of_attributes(node: Node<'_>, effects: &mut Effects) {
     for attribute in node.attributes() {
         if attribute.name.contains(['-', '.', '{']) {
             let name = attribute.name.rsplit('}').next().unwrap_or_default().into();
@@ -182,8 +181,7 @@ fn names_of_attributes(node: Node<'_>, effects: &mut Effects) -> Reading<()> {
                 false => "attribute",
             };
             let rule = "in USD no attribute has a `-`, a `.` or a prefix in its name";
-            return effects.refuse(attribute, Fault::Name { kind, name, rule });
+            effects.refuse_mendable(attribute, Fault::Name { kind, name, rule });
         }
     }
-    Ok(())
 }

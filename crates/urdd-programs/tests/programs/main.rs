@@ -5,6 +5,7 @@ mod control;
 mod gazebo;
 mod meshes;
 mod parts;
+mod read_on;
 mod table;
 mod three;
 mod usd;

@@ -51,9 +51,10 @@ pub fn find(program: Program, file: &str, name: &str) -> Mesh {
     mesh.clone()
 }
 
-/// Tried in Pinocchio 4.1.0, PyBullet 3.2.7 and pycollada 0.9.3 (of urdf-usd-converter) with a mesh of Doosan's H2017.
+/// White space at the beginning is tried in Pinocchio 4.1.0, PyBullet 3.2.7 and pycollada 0.9.3 (of urdf-usd-converter) with a
+/// mesh of Doosan's H2017; what follows the root in Pinocchio and PyBullet.
 #[test]
-fn white_space_before_the_declaration_loses_a_collada_mesh_to_strict_readers() {
+fn what_is_around_a_collada_mesh_loses_it_to_strict_readers() {
     let dae = "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\">\
         <asset/><library_geometries><geometry id=\"g\"><mesh>\
         <triangles count=\"1\"><p>0 1 2</p></triangles></mesh></geometry></library_geometries>\
@@ -76,4 +77,13 @@ fn white_space_before_the_declaration_loses_a_collada_mesh_to_strict_readers() {
     };
     assert_eq!(losing(dae), [""; 0]);
     assert_eq!(losing(&format!("\n  {dae}")), ["urdf_loader", "usd"]);
+    for more in ["<a/>", "\0\0\n</scene></COLLADA>", "\0"] {
+        assert_eq!(losing(&format!("{dae}\n{more}")), ["urdf_loader", "usd"], "{more}");
+    }
+    let all_but_assimp = ["pybullet", "urdf_loader", "usd"];
+    assert_eq!(losing(&format!("{dae}\nsome text")), all_but_assimp);
+    // What is cut off, or is not closed, nobody reads.
+    let all = ["pinocchio", "pybullet", "urdf_loader", "usd"];
+    assert_eq!(losing(&format!("{dae}\n<a><b>")), all);
+    assert_eq!(losing(&dae[..dae.len() - 20]), all);
 }

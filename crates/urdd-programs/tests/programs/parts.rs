@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use urdd_programs::{Deed, Effects, Fault};
+use urdd_programs::{Deed, Effect, Effects, Fault};
 
 /// What a reader says of a part.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
@@ -20,7 +20,7 @@ pub fn claims(effects: &Effects) -> BTreeSet<Claim> {
     claims
         .map(|effect| Claim {
             part: effect.part.to_string(),
-            kind: format!("{} {:?}", kind(&effect.part), effect.fault),
+            kind: kind_of(effect),
             is_doubtful: match &effect.fault {
                 Fault::NotANumber { text, .. } => numbers(text) == Some(1),
                 Fault::Count { text, expected, .. } => numbers(text) == Some(*expected),
@@ -28,6 +28,11 @@ pub fn claims(effects: &Effects) -> BTreeSet<Claim> {
             },
         })
         .collect()
+}
+
+/// What a reader says of a part, whatever its name.
+pub fn kind_of(effect: &Effect) -> String {
+    format!("{} {:?}", kind(&effect.part), effect.fault)
 }
 
 /// How many numbers a text is, if it is nothing else.

@@ -10,6 +10,8 @@ pub struct Row {
     pub base: String,
     /// The changed file.
     pub bytes: Vec<u8>,
+    /// What makes it of the base: from a byte to another there is this text. The last is first.
+    pub edits: Vec<Edit>,
     /// The facts that the change takes away in a program that reads all as it is written.
     pub gone: Vec<String>,
     /// What each program did, by its letter: `+` loads, `-` refuses, `!` crashes, `?` does not end.
@@ -17,6 +19,8 @@ pub struct Row {
     /// The facts that are otherwise than meant, by a program's letter.
     pub differences: HashMap<char, Vec<String>>,
 }
+
+pub type Edit = (usize, usize, Vec<u8>);
 
 /// The letters of programs, by their names.
 pub type Letters = HashMap<String, char>;
@@ -47,11 +51,13 @@ pub fn read(path: &Path) -> (Letters, Vec<Row>) {
                 let unchanged = bases
                     .entry(base.clone())
                     .or_insert_with(|| fs::read(folder().join("base").join(&base)).unwrap());
-                let bytes = changed(unchanged, parts);
+                let edits = edits(parts);
+                let bytes = changed(unchanged, &edits);
                 rows.push(Row {
                     id: String::from_utf8_lossy(&id).into_owned(),
                     base,
                     bytes,
+                    edits,
                     gone: Vec::new(),
                     verdicts: HashMap::new(),
                     differences: HashMap::new(),
@@ -84,9 +90,9 @@ pub fn read(path: &Path) -> (Letters, Vec<Row>) {
     (letters, rows)
 }
 
-/// A base with the edits of a row, `START-END:TEXT`.
-fn changed<'a>(base: &[u8], edits: impl Iterator<Item = &'a str>) -> Vec<u8> {
-    let mut edits: Vec<(usize, usize, Vec<u8>)> = edits
+/// The edits of a row, `START-END:TEXT`.
+fn edits<'a>(edits: impl Iterator<Item = &'a str>) -> Vec<Edit> {
+    let mut edits: Vec<Edit> = edits
         .map(|edit| {
             let (place, text) = edit.split_once(':').unwrap();
             let (start, end) = place.split_once('-').unwrap();
@@ -94,9 +100,14 @@ fn changed<'a>(base: &[u8], edits: impl Iterator<Item = &'a str>) -> Vec<u8> {
         })
         .collect();
     edits.sort_by_key(|edit| std::cmp::Reverse(edit.0));
+    edits
+}
+
+/// A base with edits of which the last is first.
+pub fn changed(base: &[u8], edits: &[Edit]) -> Vec<u8> {
     let mut bytes = base.to_vec();
     for (start, end, text) in edits {
-        bytes.splice(start..end, text);
+        bytes.splice(start..end, text.iter().copied());
     }
     bytes
 }

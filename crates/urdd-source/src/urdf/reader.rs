@@ -369,7 +369,7 @@ pub(super) fn fault(error: &XmlError, text: &str) -> PlacedFault {
     let at = error.pos();
     let fault = match error {
         XmlError::Entities(_) => Fault::Entities,
-        _ => Fault::NotXml(error.words(text)),
+        _ => Fault::NotXml(error.sentence(text)),
     };
     PlacedFault { file: None, line: at.row, column: at.col, fault }
 }

@@ -15,6 +15,7 @@ use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 use urdd_geometry::Mesh;
 use urdd_geometry::read::{Format, GltfUp, MeshError, NoteCode, Options, Scene, read, read_with};
 use urdd_geometry::surface::is_thin;
+use urdd_xml::foreign::LFS_POINTER;
 
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum MeshFault {
@@ -127,7 +128,9 @@ fn header_fault(header: &[u8], size: u64) -> Option<String> {
     let begins = |text: &[u8]| header.starts_with(text);
     Some(match (word(header, 4), word(header, 8)) {
         _ if begins(b"{") => "it is glTF as JSON (a .gltf file)".to_owned(),
-        _ if begins(b"version http") => "it is a Git LFS pointer; fetch the file itself".to_owned(),
+        _ if LFS_POINTER.get(..header.len()) == Some(header) && header.len() > 8 => {
+            "it is a Git LFS pointer; fetch the file itself".to_owned()
+        }
         _ if !begins(b"glTF") => "it does not begin with `glTF`".to_owned(),
         (Some(2), Some(length)) if u64::from(length) == size => return None,
         (Some(2), Some(length)) => format!("its header says {length} bytes, and it has {size}"),

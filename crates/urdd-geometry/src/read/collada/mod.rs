@@ -22,8 +22,7 @@ pub(super) fn read(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure>
     let (above, text) = begun(&text, assembly);
     let xml = urdd_xml::parse(text, urdd_xml::Kind::Other).map_err(|error| {
         let line = above + error.pos().row as usize;
-        let words = error.words(text);
-        Fault::malformed(format!("not well-formed XML: {words}")).at(|| Place::Line(line))
+        Fault::malformed(error.sentence(text)).at(|| Place::Line(line))
     })?;
     let root = xml.root_element();
     let tag = root.tag_name().name();

@@ -51,6 +51,8 @@ fn what_loads_is_not_said_to_be_refused() {
         ),
         format!("{LINKS}<plugin name='p' filename='q'><link name='a::b'/><plugin/></plugin>"),
         format!("{LINKS}<plugin name='p' filename='q'/><plugin name='p' filename='q'/>"),
+        // The name of a plugin is that of a class.
+        format!("{LINKS}<plugin name='gz::sim::systems::Physics' filename='q'/>"),
     ];
     for text in fine {
         assert_eq!(of_model("1.9", &text), [""; 0], "{text}");

@@ -57,7 +57,7 @@ pub struct Problem {
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Error)]
 pub enum Fault {
     /// Not well-formed XML.
-    #[error("not well-formed XML: {0}")]
+    #[error("{0}")]
     NotXml(String),
     /// The root element has another name.
     #[error(
@@ -130,7 +130,7 @@ pub(super) fn not_xml(error: &XmlError, text: &str) -> Problem {
     Problem {
         offset: start + column,
         // The message is shown with its place already.
-        fault: Fault::NotXml(error.words(text)),
+        fault: Fault::NotXml(error.sentence(text)),
         actual: None,
     }
 }

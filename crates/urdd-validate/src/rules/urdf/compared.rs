@@ -218,8 +218,11 @@ fn unreadable_urdf(described: &Described, findings: &mut Findings) -> Option<()>
     };
     let reading = described.urdf_text()?;
     if let Some(offset) = carried.not_utf8_at {
-        let message =
-            "the URDF is not in UTF-8; save it as UTF-8, and say so in its XML declaration";
+        let message = match &carried.foreign {
+            Some(foreign) => foreign.to_string(),
+            None => "the URDF is not in UTF-8; save it as UTF-8, and say so in its XML declaration"
+                .to_owned(),
+        };
         Finding::in_file(&carried.path, message)
             .position(Some(position::position(&carried.text, offset)))
             .report(findings);
