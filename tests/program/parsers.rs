@@ -56,11 +56,8 @@ const OTHERS: &[&str] = &[
 /// Files that read JSON by `serde_json`, and what bounds the text. All else is read by `urdd_directory::json`.
 const JSON: &[(&str, &str)] = &[
     ("crates/urdd-conformance/src/data.rs", "the suite's own"),
-    (
-        "crates/urdd-conformance/src/export.rs",
-        "crates/urdd-conformance/src/looped.rs",
-        "the suite's own",
-    ),
+    ("crates/urdd-conformance/src/export.rs", "the suite's own"),
+    ("crates/urdd-conformance/src/looped.rs", "the suite's own"),
     ("crates/urdd-conformance/src/refused.rs", "MAX_DOCUMENT_BYTES"),
     ("crates/urdd-conformance/src/suite.rs", "the suite's own"),
     ("crates/urdd-directory/src/json.rs", "the door: MAX_DOCUMENT_BYTES and DEPTH_LIMIT"),

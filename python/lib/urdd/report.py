@@ -1131,6 +1131,7 @@ def _does(v: Any) -> Does:
     return Does(
         program=v["program"],
         does=v["does"],
+        is_supposed=v.get("is_supposed"),
     )
 
 
@@ -1178,6 +1179,7 @@ def _program_effect(v: Any) -> ProgramEffect:
         reason=v["reason"],
         makes=v["makes"],
         is_usual=v["is_usual"],
+        is_supposed=v.get("is_supposed"),
     )
 
 
