@@ -11,6 +11,7 @@ use super::inputs::advice;
 use super::output::{self, Failure};
 use super::watch::Watch;
 use urdd_diff::{DiffError, Options, Side, TOLERANCE, compare, markdown, text};
+use urdd_directory::account::Account;
 use urdd_directory::cancellation::Cancellation;
 use urdd_source::{Settings, format_of};
 use urdd_validate::report;
@@ -91,6 +92,7 @@ pub fn run(arguments: &DiffArguments, watch: &Watch) -> Result<u8, Failure> {
 fn diff(arguments: &DiffArguments, cancellation: &Cancellation) -> Result<u8, Failure> {
     let settings = Settings {
         loops: arguments.named_loops.loops.clone(),
+        account: Some(Account::new(cancellation)),
         cancellation: cancellation.clone(),
         ..arguments.packages.settings()?
     };
@@ -120,6 +122,7 @@ fn diff(arguments: &DiffArguments, cancellation: &Cancellation) -> Result<u8, Fa
         (Err(error), _) | (_, Err(error)) => return Err(error.into()),
     };
     let found = compare(&before, &after, arguments.tolerance)?;
+    cancellation.check()?;
     match arguments.format {
         DiffFormat::Text => output::print(&text(&found))?,
         DiffFormat::Markdown => output::print_raw(&markdown(&found))?,

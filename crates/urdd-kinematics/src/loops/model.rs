@@ -18,7 +18,7 @@ const MOST_HELD: usize = 20_000_000;
 /// The least length by which equations are scaled, m.
 const LEAST_REACH: f64 = 1e-3;
 
-/// Work for the pose of a link, or for the rows of a joint.
+/// Work for the pose of a link, for the rows of a joint, or for a term of a coupling.
 const POSE: usize = 100;
 /// By what the cube of the number of DOFs is divided: a sixth of it is multiplied, in long rows, a little faster than in short ones.
 const SOLVED: usize = 8;
@@ -181,7 +181,9 @@ impl Loops {
     pub(super) fn work_of(&self, group: &Group, kinematics: &ForwardKinematics) -> usize {
         let dofs = group.dofs.len();
         let steps = group.loops.iter().flat_map(|one| &self.loops[*one].steps).map(Vec::len);
-        let poses = POSE.saturating_mul(kinematics.num_links() + steps.sum::<usize>());
+        let terms = group.couplings.iter().map(|one| self.couplings[*one].terms.len());
+        let entries = kinematics.num_links() + steps.sum::<usize>() + terms.sum::<usize>();
+        let poses = POSE.saturating_mul(entries);
         let products = group.num_rows().saturating_mul(dofs.saturating_pow(2));
         poses.saturating_add(products).saturating_add(dofs.saturating_pow(3) / SOLVED)
     }
