@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use urdd_directory::account::Account;
 use urdd_diff::{DiffError, Options, Side, compare};
 use urdd_validate::report;
 
@@ -25,7 +24,6 @@ pub fn diff(
     let mut urdf = source.settings().map_err(PyValueError::new_err)?;
     let outcome = work::run(py, move |cancellation| -> Result<_, DiffError> {
         urdf.cancellation = cancellation.clone();
-        urdf.account = Some(Account::new(cancellation));
         let options = Options { urdf, without_findings: !findings };
         let (before, after) = (Side::open(&before, &options)?, Side::open(&after, &options)?);
         Ok(compare(&before, &after, tolerance))

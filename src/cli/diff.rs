@@ -11,7 +11,6 @@ use super::inputs::advice;
 use super::output::{self, Failure};
 use super::watch::Watch;
 use urdd_diff::{DiffError, Options, Side, TOLERANCE, compare, markdown, text};
-use urdd_directory::account::Account;
 use urdd_directory::cancellation::Cancellation;
 use urdd_source::{Settings, format_of};
 use urdd_validate::report;
@@ -92,7 +91,6 @@ pub fn run(arguments: &DiffArguments, watch: &Watch) -> Result<u8, Failure> {
 fn diff(arguments: &DiffArguments, cancellation: &Cancellation) -> Result<u8, Failure> {
     let settings = Settings {
         loops: arguments.named_loops.loops.clone(),
-        account: Some(Account::new(cancellation)),
         cancellation: cancellation.clone(),
         ..arguments.packages.settings()?
     };

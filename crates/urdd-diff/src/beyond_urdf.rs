@@ -214,7 +214,8 @@ fn of(
     file: Option<&Companion>,
     read: Reader,
 ) -> Result<Option<Parts>, String> {
-    let read = file.map(|text| text.clone().and_then(|text| read(&text, &side.account))).transpose();
+    let read =
+        file.map(|text| text.clone().and_then(|text| read(&text, &side.account))).transpose();
     let read =
         read.map_err(|why| format!("{word}: the {name} beside it is not compared: {why}"))?;
     Ok(read.or_else(|| (side.kind == Kind::Urdf).then(Vec::new)))

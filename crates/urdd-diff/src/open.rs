@@ -36,6 +36,13 @@ impl Side {
     /// # Errors
     /// If the path has no robot, or one that cannot be read.
     pub fn open(path: &Path, options: &Options) -> Result<Side, DiffError> {
+        // All that is made of a robot is of one account.
+        let account = Some(options.urdf.run_account());
+        let urdf = SourceSettings { account, ..options.urdf.clone() };
+        Side::within(path, &Options { urdf, ..*options })
+    }
+
+    fn within(path: &Path, options: &Options) -> Result<Side, DiffError> {
         let shown = path.display().to_string();
         let is_there = !path.is_dir() && path.exists();
         match robot_file(path, &Files::Disk).filter(|_| is_there) {

@@ -24,7 +24,10 @@ fn a_pair_of_links_is_what_its_shapes_make_it() {
 fn names_in_very_many_pairs_are_charged() {
     // 300 links, and 500 pieces, with ordinary names; 2,000 links without a table.
     for (longest, shapes) in [(40, 300), (60, 500), (40, 2_000), (100_000, 20)] {
-        assert!(charge(longest * shapes, shapes, &Account::default()).is_ok(), "{longest} {shapes}");
+        assert!(
+            charge(longest * shapes, shapes, &Account::default()).is_ok(),
+            "{longest} {shapes}"
+        );
     }
     assert!(charge(40_000 * 300, 300, &Account::default()).is_err());
     assert!(charge(usize::MAX / 1000, 2_000, &Account::default()).is_err());
@@ -69,10 +72,15 @@ fn an_export_is_of_the_account_of_the_run() {
         let name = format.name();
         assert!(export(&Account::default()).is_ok(), "{name}");
         let cancelled = export(&Account::new(&cancellation)).map(|_| ());
-        assert_eq!(cancelled, Err(ExportError::Account(AccountError::Cancelled(Cancelled))), "{name}");
+        assert_eq!(
+            cancelled,
+            Err(ExportError::Account(AccountError::Cancelled(Cancelled))),
+            "{name}"
+        );
     }
     // What another part of the run took is gone.
-    let (options, account) = (Choices::default().options(Format::Srdf).expect("options"), Account::default());
+    let (options, account) =
+        (Choices::default().options(Format::Srdf).expect("options"), Account::default());
     assert!(account.charge(usize::try_from(2 * ALLOWANCE).expect("a number")).is_err());
     let refused = export_within(&robot, &options, &account).map(|_| ());
     assert_eq!(refused, Err(ExportError::Account(AccountError::Overdrawn(Overdrawn))));

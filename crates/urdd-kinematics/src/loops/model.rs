@@ -18,8 +18,10 @@ const MOST_HELD: usize = 20_000_000;
 /// The least length by which equations are scaled, m.
 const LEAST_REACH: f64 = 1e-3;
 
-/// Work for the pose of a link, for the rows of a joint, or for a term of a coupling.
+/// Work for the pose of a link, or for the rows of a joint.
 const POSE: usize = 100;
+/// Work for a term of a coupling: its value, its derivative and its largest value.
+const TERM: usize = 400;
 /// By what the cube of the number of DOFs is divided: a sixth of it is multiplied, in long rows, a little faster than in short ones.
 const SOLVED: usize = 8;
 
@@ -182,8 +184,8 @@ impl Loops {
         let dofs = group.dofs.len();
         let steps = group.loops.iter().flat_map(|one| &self.loops[*one].steps).map(Vec::len);
         let terms = group.couplings.iter().map(|one| self.couplings[*one].terms.len());
-        let entries = kinematics.num_links() + steps.sum::<usize>() + terms.sum::<usize>();
-        let poses = POSE.saturating_mul(entries);
+        let poses = POSE.saturating_mul(kinematics.num_links() + steps.sum::<usize>());
+        let poses = poses.saturating_add(TERM.saturating_mul(terms.sum()));
         let products = group.num_rows().saturating_mul(dofs.saturating_pow(2));
         poses.saturating_add(products).saturating_add(dofs.saturating_pow(3) / SOLVED)
     }

@@ -148,16 +148,15 @@ fn closing_ends_once_its_work_is_spent() {
 /// Each term is a polynomial, its derivative and its largest value: 14,000 couplings of two joints took seconds for nothing.
 #[test]
 fn the_work_of_a_step_counts_the_terms_of_couplings() {
-    let joints =
-        [between(0, 1, Continuous, [0.0; 3]), between(1, 2, Continuous, [0.1, 0.0, 0.0])];
+    let joints = [between(0, 1, Continuous, [0.0; 3]), between(1, 2, Continuous, [0.1, 0.0, 0.0])];
     let term = |dof| CouplingTerm { dof_idx: DofIdx(dof), coefficients: [1.0, 0.0, 0.0, 0.0] };
     let one = Coupling { name: "c".to_owned(), constant: 0.0, terms: vec![term(0), term(1)] };
     let work = |couplings: usize| {
         let (kinematics, loops) = robot(&joints, &module(Vec::new(), vec![one.clone(); couplings]));
         loops.work(&kinematics)
     };
-    // As a pose for each term, beside a row of two DOFs.
-    assert_eq!(work(1001) - work(1), 1000 * (2 * 100 + 2 * 2));
+    // Two terms, and a row of two DOFs.
+    assert_eq!(work(1001) - work(1), 1000 * (2 * 400 + 2 * 2));
 }
 
 #[test]
