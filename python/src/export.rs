@@ -8,6 +8,7 @@ use pyo3::exceptions::{PyOSError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyDict, PyString};
 use serde_json::Value;
+use urdd_directory::account::Account;
 use urdd_directory::file_type::FileType;
 use urdd_directory::limits::MAX_SRDF_BYTES;
 use urdd_directory::regular;
@@ -121,7 +122,9 @@ pub fn export<'py>(
     options: Options<'py>,
 ) -> PyResult<Made<'py>> {
     let (robot, options) = subject(py, robot, format, &options)?;
-    let made = work::run(py, move |_| urdd_export::export(&robot, &options))?;
+    let made = work::run(py, move |cancellation| {
+        urdd_export::export_within(&robot, &options, &Account::new(cancellation))
+    })?;
     let made = made.map_err(|error| of_export(py, error))?;
     let files = made.files.iter();
     Ok((

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import resource
 from pathlib import Path
 from typing import Any
 
@@ -97,6 +98,19 @@ def test_a_field_has_a_column_for_each_height(arm: urdd.Robot) -> None:
     assert np.allclose(ours, boxes, atol=1e-8)
     field.move("field", [5.0, 0.0, 0.0])
     assert not arm.world_proximity(field).in_collision(q).any()
+
+
+def test_more_than_ten_million_points_are_refused_before_they_are_copied() -> None:
+    world = urdd.World()
+    # The system gives memory for zeros once they are read.
+    points = np.zeros((100_000_000, 3))
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    with pytest.raises(urdd.ObstacleError, match="100000000 points, and 10000000 are allowed"):
+        world.add_points("cloud", points, 0.01)
+    with pytest.raises(urdd.ObstacleError, match="300000000 points, and 10000000 are allowed"):
+        world.add_height_field("field", points, [0.1, 0.1], 0.1)
+    kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+    assert kilobytes < 100_000
 
 
 def test_what_makes_no_sense_is_refused(arm: urdd.Robot) -> None:

@@ -171,6 +171,7 @@ fn diff(arguments: &DiffArguments, cancellation: &Cancellation) -> Result<u8, Fa
         (Err(error), _) | (_, Err(error)) => return Err(error.into()),
     };
     let found = compare(&before, &after, arguments.tolerance)?;
+    cancellation.check()?;
     match arguments.format {
         DiffFormat::Text => output::print(&text(&found))?,
         DiffFormat::Markdown => output::print_raw(&markdown(&found))?,

@@ -10,8 +10,10 @@ use super::arguments::{AnswerFormat, parser};
 use super::inputs;
 use super::output::{self, Failure, about, shown};
 use super::watch::Watch;
+use urdd_directory::account::Account;
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::outputs::{self, Output, Target as Place};
-use urdd_export::{CHOICES, Choice, Choices, Export, Format, Kind, Note, Setup, export};
+use urdd_export::{CHOICES, Choice, Choices, Export, Format, Kind, Note, Setup, export_within};
 use urdd_format::readable::counted;
 use urdd_robot::Robot;
 use urdd_srdf::merge_srdf;
@@ -172,16 +174,20 @@ fn targets() -> impl TypedValueParser<Value = Target> {
 struct Target(Option<Format>);
 
 pub fn run(arguments: &ExportArguments, watch: &Watch) -> Result<u8, Failure> {
-    watch.run_one(&arguments.path, None, |_| {
+    watch.run_one(&arguments.path, None, |cancellation| {
         match arguments.format.0 {
-            Some(format) => write_robot(arguments, format)?,
+            Some(format) => write_robot(arguments, format, cancellation)?,
             None => write_setup(arguments)?,
         }
         Ok(0)
     })
 }
 
-fn write_robot(arguments: &ExportArguments, format: Format) -> Result<(), Failure> {
+fn write_robot(
+    arguments: &ExportArguments,
+    format: Format,
+    cancellation: &Cancellation,
+) -> Result<(), Failure> {
     let output = arguments.output.as_deref().ok_or("give the file to write with -o")?;
     let is_alone = matches!(format, Format::Srdf | Format::Curobo | Format::Foam);
     if output.as_os_str() == "-" && !is_alone {
@@ -194,7 +200,9 @@ fn write_robot(arguments: &ExportArguments, format: Format) -> Result<(), Failur
     let options = choices(arguments, &robot)?.options(format).map_err(|misfit| {
         format!("--{} is for {} only", name_of(misfit.option), misfit.formats())
     })?;
-    let made = export(&robot, &options).map_err(about(&arguments.path))?;
+    let made = export_within(&robot, &options, &Account::new(cancellation));
+    cancellation.check()?;
+    let made = made.map_err(about(&arguments.path))?;
     for note in &made.notes {
         output::error(&format!("note: {note}"));
     }

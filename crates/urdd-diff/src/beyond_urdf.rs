@@ -212,9 +212,10 @@ fn of(
     side: &Side,
     name: &str,
     file: Option<&Companion>,
-    read: fn(&str) -> Result<Parts, String>,
+    read: Reader,
 ) -> Result<Option<Parts>, String> {
-    let read = file.map(|text| text.clone().and_then(|text| read(&text))).transpose();
+    let read =
+        file.map(|text| text.clone().and_then(|text| read(&text, &side.account))).transpose();
     let read =
         read.map_err(|why| format!("{word}: the {name} beside it is not compared: {why}"))?;
     Ok(read.or_else(|| (side.kind == Kind::Urdf).then(Vec::new)))
@@ -238,21 +239,17 @@ fn lost_note(word: &str, side: &Side) -> Option<String> {
     })
 }
 
+/// Reads a file beside a robot. Each path has the names above it, so the text is added to the account, and paths are charged.
+type Reader = fn(&str, &Account) -> Result<Parts, String>;
+
 /// The elements of an SRDF: `group_state "home" (arm)`, `disable_collisions a - b`.
-fn of_srdf(text: &str) -> Result<Parts, String> {
+fn of_srdf(text: &str, account: &Account) -> Result<Parts, String> {
     let document =
         urdd_xml::parse(text, urdd_xml::Kind::Robot).map_err(|error| error.words(text))?;
-    let account = account(text);
-    let parts = children(document.root_element()).map(|(_, one)| srdf_element(one, &account));
+    account.deposit(text.len());
+    let parts = children(document.root_element()).map(|(_, one)| srdf_element(one, account));
     let parts = parts.collect::<Result<Vec<_>, AccountError>>().map_err(|why| why.to_string())?;
     Ok(numbered(parts.into_iter()))
-}
-
-/// Each path has the names above it: what a text is made into is charged to what it has.
-fn account(text: &str) -> Account {
-    let account = Account::default();
-    account.deposit(text.len());
-    account
 }
 
 /// The attributes that tell an element from others of its tag: the first of these that it has.
@@ -290,9 +287,9 @@ fn srdf_element(root: Node<'_, '_>, account: &Account) -> Result<(String, Fields
 
 /// The tables of an `export.toml` by their paths: `actuators.joint.elbow`, `group "arm"`. What is false or empty says as
 /// much as what is absent.
-fn of_toml(text: &str) -> Result<Parts, String> {
+fn of_toml(text: &str, account: &Account) -> Result<Parts, String> {
     let file: Table = toml::from_str(text).map_err(|error| error.message().to_owned())?;
-    let account = account(text);
+    account.deposit(text.len());
     let mut parts = Vec::new();
     // A stack keeps the depth of tables off the call stack.
     let mut open = vec![(String::new(), &file)];

@@ -35,7 +35,7 @@ use fields::Fields;
 pub const TOLERANCE: Range = Range::real("tolerance", 0.0, f64::MAX, "");
 
 /// Compares two robots. Numbers that differ by at most `tolerance`, in the unit of each value, are equal; 0 compares
-/// exactly.
+/// exactly. After a cancellation (`Options::urdf`), parts may be missing: discard the report.
 ///
 /// # Errors
 /// If the tolerance is out of the range of [`TOLERANCE`].

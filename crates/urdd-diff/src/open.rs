@@ -4,7 +4,6 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use urdd_directory::account::Account;
 use urdd_directory::discover::{Found, discover};
 use urdd_directory::file_type::setup_beside;
 use urdd_directory::limits::MAX_SETUP_BYTES;
@@ -21,7 +20,7 @@ use urdd_format::report::{self, Kind};
 use urdd_format::urdf::Geometry;
 use urdd_geometry::read::{Scene, read};
 use urdd_source::beside::{Beside, Companion};
-use urdd_source::{Files, RobotFile, robot_file};
+use urdd_source::{Files, RobotFile, Settings as SourceSettings, robot_file};
 use urdd_validate::settings::Settings;
 use urdd_validate::{Run, ValidateError, alone, examine_urdf, found, validate, validate_loaded};
 use urdd_xml::Xml;
@@ -37,6 +36,13 @@ impl Side {
     /// # Errors
     /// If the path has no robot, or one that cannot be read.
     pub fn open(path: &Path, options: &Options) -> Result<Side, DiffError> {
+        // All that is made of a robot is of one account.
+        let account = Some(options.urdf.run_account());
+        let urdf = SourceSettings { account, ..options.urdf.clone() };
+        Side::within(path, &Options { urdf, ..*options })
+    }
+
+    fn within(path: &Path, options: &Options) -> Result<Side, DiffError> {
         let shown = path.display().to_string();
         let is_there = !path.is_dir() && path.exists();
         match robot_file(path, &Files::Disk).filter(|_| is_there) {
@@ -68,7 +74,7 @@ impl Side {
         let loaded = Arc::new(loaded.map_err(|error| failed(&error))?);
         let xml = loaded.urdf.as_ref().ok().map(|urdf| Xml::new(&urdf.text));
         let xml = xml.as_ref();
-        let mut side = open_urdd(Urdd::new(Arc::clone(&loaded)), xml, path, shown)?;
+        let mut side = open_urdd(Urdd::new(Arc::clone(&loaded)), xml, path, shown, &options.urdf)?;
         side.validation = validation(options, |settings| {
             validate_loaded(Arc::clone(&loaded), name, settings, xml)
         })?;
@@ -129,7 +135,7 @@ fn open_urdf(path: &Path, is: RobotFile, options: &Options) -> Result<Side, Diff
         })?,
         path: shown,
         notes: Vec::new(),
-        account: Account::default(),
+        account: options.urdf.run_account(),
     })
 }
 
@@ -142,6 +148,7 @@ fn open_urdd(
     xml: Option<&Xml<'_>>,
     path: &Path,
     shown: String,
+    settings: &SourceSettings,
 ) -> Result<Side, DiffError> {
     let robot = match urdd.description() {
         Some(module) => module.clone(),
@@ -172,7 +179,7 @@ fn open_urdd(
         beside: Beside { setup: setup(path), ..Beside::default() },
         loops: None,
         notes,
-        account: Account::default(),
+        account: settings.run_account(),
     })
 }
 

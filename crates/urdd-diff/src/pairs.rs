@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use nalgebra::{Matrix3, Vector3};
-use urdd_directory::account::{Account, AccountError};
+use urdd_directory::account::AccountError;
 use urdd_document::tree::Tree;
 use urdd_format::diff_report::{PairChange, PairDifference, PoseDifference};
 use urdd_robot::{Robot, ShapeKind};
@@ -73,7 +73,7 @@ pub fn differences(
         }
     }
     // Each pair has the names of its links; a URDD has an entry for each pair.
-    let account = Account::default();
+    let account = &before.account;
     account.deposit(names.len() * names.len());
     let found = found.into_iter().map(|(((i, j), change), shapes)| {
         account.charge(names[i].len() + names[j].len())?;

@@ -92,7 +92,7 @@ pub struct Side {
     /// What its source says of loops; `None` of a URDD, which has a module.
     pub(super) loops: Option<File>,
     pub(super) notes: Vec<String>,
-    /// What may be made of its elements.
+    /// The account of all that is made of it, and of what stands beside it.
     pub(super) account: Account,
 }
 

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use crate::pairs::{ascending, pairs};
 use crate::{Choices, Contacts, ExportError, Layout, LinkPair, Shape, Solid, Structure};
+use urdd_directory::account::Account;
 use urdd_document::tree::RigidGroups;
 use urdd_format::link_shapes_simple_skips::{CONTACT, SeenPair, SkipReason};
 use urdd_geometry::convex::{ConvexShape, Motion, PlacedShape, pair_distances, pair_ranges};
@@ -44,9 +45,10 @@ impl Basis {
         links: &[String],
         choices: &Choices,
         of_pieces: bool,
+        account: &Account,
     ) -> Result<Vec<LinkPair>, ExportError> {
         let (reasons, keeps) = (choices.reasons.as_deref(), choices.keep_pairs && !of_pieces);
-        let mut pairs = pairs(self.skips(), layout, links, reasons, keeps)?;
+        let mut pairs = pairs(self.skips(), layout, links, reasons, keeps, account)?;
         if !of_pieces {
             count(robot, layout, self, &mut pairs)?;
         }

@@ -90,6 +90,7 @@ use shapes::{Shape, Solid};
 use stand::Stand;
 use structure::Structure;
 use subject::Subject;
+use urdd_directory::account::Account;
 use urdd_robot::Robot;
 use yaml::Yaml;
 
@@ -122,8 +123,21 @@ pub use urdd_spheres::model::{Sphere, SphereList};
 /// If an option is out of its range, if a required module is missing or unusable, and in the other cases of
 /// [`ExportError`].
 pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
+    export_within(robot, options, &Account::default())
+}
+
+/// As [`export`], with the account of the run.
+///
+/// # Errors
+/// As [`export`], and if the run was cancelled.
+pub fn export_within(
+    robot: &Robot,
+    options: &Options,
+    account: &Account,
+) -> Result<Export, ExportError> {
     options.check()?;
-    let mut subject = Subject::new(robot, options, true)?;
+    account.charge(0)?;
+    let mut subject = Subject::new(robot, options, true, account)?;
     subject.lost = carried::lost(&subject);
     let mut made = match options.format {
         Format::Srdf => srdf::export(&subject),

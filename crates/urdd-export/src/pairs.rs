@@ -100,17 +100,16 @@ fn has(reasons: &[SkippedReason], reason: SkipReason) -> bool {
     reasons.iter().any(|one| one.of_pair() == reason)
 }
 
-/// Charges the names in all pairs of shapes, of which a URDD has numbers. Names may be long: `bytes` is the sum of those of
-/// all shapes.
+/// Charges the names in all pairs of shapes, and adds to the account what a URDD has of them: the names, and a number for each
+/// pair. Names may be long: `bytes` is the sum of those of all shapes.
 ///
 /// # Errors
-/// If the pairs would take more than an account has that was given the names and the numbers.
-pub fn charge(bytes: usize, shapes: usize) -> Result<(), AccountError> {
+/// If the account does not have what the pairs take, or the run was cancelled.
+pub fn charge(bytes: usize, shapes: usize, account: &Account) -> Result<(), AccountError> {
     /// In memory, in elements and in the text.
     const COPIES: usize = 4;
     /// Bytes of a pair in a module, at least.
     const PAIR: usize = 4;
-    let account = Account::default();
     account.deposit(bytes.saturating_add(shapes.saturating_mul(shapes).saturating_mul(PAIR)));
     account.charge(bytes.saturating_mul(shapes).saturating_mul(COPIES))
 }
@@ -122,9 +121,10 @@ pub(super) fn pairs(
     names: &[String],
     reasons: Option<&[SkippedReason]>,
     keep_pairs: bool,
+    account: &Account,
 ) -> Result<Vec<LinkPair>, AccountError> {
     let places = skips.places();
-    charge(places.iter().map(|(link, _)| names[*link].len()).sum(), places.len())?;
+    charge(places.iter().map(|(link, _)| names[*link].len()).sum(), places.len(), account)?;
     let decision = Decision::new(skips, names, reasons);
     let chosen = reasons.or(skips.skipped_reasons());
     let mut found: BTreeMap<[usize; 2], Vec<Seen>> = BTreeMap::new();

@@ -3,6 +3,7 @@
 use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion};
 
 use crate::{ExportError, Options, Shape, Solid, Subject};
+use urdd_directory::account::Account;
 use urdd_robot::Robot;
 
 /// Where a free base is in a configuration, as keyframes of MJCF have it: x, y, z in m, and the quaternion w, x, y, z. In a
@@ -17,7 +18,8 @@ pub fn base_pose(
     configuration: &[f64],
 ) -> Result<Option<[f64; 7]>, ExportError> {
     options.check()?;
-    let subject = Subject::new(robot, options, false)?;
+    let account = Account::default();
+    let subject = Subject::new(robot, options, false, &account)?;
     if !subject.has_free_base() {
         return Ok(None);
     }

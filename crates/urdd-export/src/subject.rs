@@ -17,6 +17,7 @@ use crate::{
     Choices, ExportError, Format, Layout, LinkPair, Note, Setup, Shape, Shapes, Structure, arrange,
     names, source_shapes,
 };
+use urdd_directory::account::Account;
 use urdd_directory::export_toml::{ActuatorKind, JointGains};
 use urdd_directory::range::OutOfRange;
 use urdd_format::registry::PROGRAM_VERSION;
@@ -37,6 +38,8 @@ impl Deref for Subject<'_> {
 pub(super) struct Subject<'a> {
     pub robot: &'a Robot,
     pub options: &'a Options,
+    /// The account of the run.
+    pub account: &'a Account,
     pub format: Format,
     /// The shapes that approximate links.
     pub shapes: Shapes,
@@ -70,6 +73,7 @@ impl<'a> Subject<'a> {
         robot: &'a Robot,
         options: &'a Options,
         with_pairs: bool,
+        account: &'a Account,
     ) -> Result<Self, ExportError> {
         let (format, chosen) = (options.format, &options.chosen);
         let (shapes, given) = (chosen.shapes, chosen.setup.as_ref());
@@ -110,6 +114,8 @@ impl<'a> Subject<'a> {
         let basis = match (&own_shapes, shapes) {
             _ if !has_pairs => None,
             (Some(written), _) => {
+                // It takes long.
+                account.charge(0)?;
                 let samples = num_samples(robot)?;
                 let judged = Judged::new(robot, &own, written, takes_hulls(format), samples)?;
                 Some(Basis::Written(Box::new(judged)))
@@ -135,7 +141,7 @@ impl<'a> Subject<'a> {
         }
         let of_pieces = format == Format::Mjcf;
         let pairs = match &basis {
-            Some(basis) => basis.link_pairs(robot, &layout, &links, chosen, of_pieces)?,
+            Some(basis) => basis.link_pairs(robot, &layout, &links, chosen, of_pieces, account)?,
             None => Vec::new(),
         };
         let is_floating =
@@ -145,6 +151,7 @@ impl<'a> Subject<'a> {
         Ok(Subject {
             robot,
             options,
+            account,
             format,
             shapes,
             own_shapes,

@@ -1,6 +1,6 @@
 //! Elements, attributes and names of a URDF: how they are read, what is near to them, and which ones URDF does not define.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use urdd_format::nearest::closeness;
@@ -175,6 +175,8 @@ const EVERYWHERE: [&str; 5] = ["name", "type", "value", "link", "joint"];
 /// All that is unknown in a robot.
 pub fn unknown<'a>(root: Node<'a, 'a>) -> Vec<Unknown<'a>> {
     let mut found = Vec::new();
+    // A file may have one misspelling very often.
+    let mut near_children: HashMap<(&str, &str), Option<(&'static str, bool)>> = HashMap::new();
     let mut left: Vec<(Node<'a, 'a>, &'static Known)> =
         of("robot").map(|known| (root, known)).into_iter().collect();
     while let Some((node, known)) = left.pop() {
@@ -195,7 +197,9 @@ pub fn unknown<'a>(root: Node<'a, 'a>) -> Vec<Unknown<'a>> {
                 left.extend(inside.map(|known| (child, known)));
             } else if !known.other_children.contains(&name) {
                 let has = |known: &&Known| known.children.contains(&name);
-                found.push(Unknown::new(child, What::Element, near(name, known.children), has));
+                let near = near_children.entry((known.name, name));
+                let near = *near.or_insert_with(|| self::near(name, known.children));
+                found.push(Unknown::new(child, What::Element, near, has));
             }
         }
     }

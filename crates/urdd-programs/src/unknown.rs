@@ -3,6 +3,7 @@
 
 use std::cell::LazyCell;
 use std::collections::HashSet;
+use std::sync::LazyLock;
 
 use urdd_xml::element::{KNOWN, Known, of};
 
@@ -304,7 +305,8 @@ fn has_prefix(name: &str) -> bool {
 }
 
 fn is_extension(name: &str) -> bool {
-    EXTENSIONS.split(' ').any(|one| one == name) || has_prefix(name)
+    static ALL: LazyLock<HashSet<&str>> = LazyLock::new(|| EXTENSIONS.split(' ').collect());
+    ALL.contains(name) || has_prefix(name)
 }
 
 /// Whether a name is another with other letter case, a prefix, or one or two typing errors.

@@ -143,7 +143,7 @@ class World:
                 f"and {sizes.shape}",
                 name,
             )
-        arguments = (self._pose(name, pose), np.array(field), tuple(sizes.tolist()), float(thickness))
+        arguments = (self._pose(name, pose), field, tuple(sizes.tolist()), float(thickness))
         self._add(name, "height_field", arguments, ignore)
 
     def move(self, name: str | Sequence[str], pose: ArrayLike) -> None:
@@ -216,7 +216,9 @@ class World:
             raise ValueError(f"there is an obstacle `{name}` already; remove it first, or choose another name")
         ignored = words(ignore, "ignore")
         core: _urdd.Obstacle = getattr(_urdd.Obstacle, shape)(name, *arguments)
-        self._obstacles[name] = _Obstacle(core, shape, arguments, ignored)
+        # The caller may change theirs. Not before the core is made: it refuses what takes too much memory.
+        kept = tuple(np.array(one) if isinstance(one, np.ndarray) else one for one in arguments)
+        self._obstacles[name] = _Obstacle(core, shape, kept, ignored)
 
     @staticmethod
     def _three(name: str, values: ArrayLike, what: str) -> tuple[float, float, float]:
@@ -268,4 +270,4 @@ class World:
             raise ObstacleError(f"obstacle `{name}`: {error}", name) from None
         if given.ndim != 2 or given.shape[1] != 3:
             raise ObstacleError(f"obstacle `{name}`: {what} must have the shape (n, 3), not {given.shape}", name)
-        return np.array(given)
+        return given

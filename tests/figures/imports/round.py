@@ -122,7 +122,7 @@ def main():
             f"{'WRONG ' if is_wrong else ''}{file.parent.name}/{file.name}: {count} bodies, poses {poses:.1e}, "
             f"masses {masses:.1e}, contacts lost: {pairs(a - b)}; new: {pairs(b - a)}"
         )
-    return wrong > 0
+    return int(wrong > 0)
 
 
 if __name__ == "__main__":

@@ -2,10 +2,14 @@
 
 use std::time::Instant;
 
-use super::{differences, open, places};
+use super::{differences, open, places, quick};
 use testkit::robots::our_robots;
 use testkit::workshop::Workshop;
 use urdd_diff::{Options, Side, compare, markdown, text};
+use urdd_directory::account::{Account, Overdrawn};
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_directory::limits::ALLOWANCE;
+use urdd_source::Settings;
 
 #[cfg(unix)]
 #[test]
@@ -131,4 +135,32 @@ fn paths_of_long_tags_are_not_multiplied() {
         let found = places(&differences(&before, &after));
         assert_eq!(found, ["links/a/gazebo", "joints/j/gazebo", "other/gazebo/text"]);
     }
+}
+
+#[test]
+fn what_is_beside_robots_is_charged_to_the_account_of_the_run() {
+    let shop = Workshop::new();
+    let robot = shop.write("r.urdf", "<robot name='r'><link name='a'/></robot>");
+    shop.write("r.srdf", "<robot name='r'><group name='g'><link name='a'/></group></robot>");
+    shop.write("r.export.toml", "[[group]]\nname = \"g\"\n");
+    let compared = |side: &Side| compare(side, side, 0.0).unwrap().notes;
+    let open = |urdf: Settings| Side::open(&robot, &Options { urdf, ..quick() }).unwrap();
+    let both = |why: &dyn ToString| -> Vec<String> {
+        let note = |side, name| {
+            format!("{side}: the {name} beside it is not compared: {}", why.to_string())
+        };
+        let names = ["SRDF", "`export.toml`"].into_iter();
+        names.flat_map(|name| ["A", "B"].map(|side| note(side, name))).collect()
+    };
+
+    let account = Account::default();
+    let side = open(Settings { account: Some(account.clone()), ..Settings::default() });
+    assert_eq!(compared(&side), Vec::<String>::new());
+    assert!(account.charge(usize::try_from(2 * ALLOWANCE).unwrap()).is_err());
+    assert_eq!(compared(&side), both(&Overdrawn));
+
+    let cancellation = Cancellation::default();
+    let side = open(Settings { cancellation: cancellation.clone(), ..Settings::default() });
+    cancellation.cancel();
+    assert_eq!(compared(&side), both(&Cancelled));
 }

@@ -43,7 +43,7 @@ impl Setup {
     /// Reads a file.
     ///
     /// # Errors
-    /// If it cannot be read, is longer than 1 MiB, or is wrong: see [`Setup::from_toml`].
+    /// If it cannot be read, is longer than 16 MiB, or is wrong: see [`Setup::from_toml`].
     pub fn read(file: &Path, robot: &Robot) -> Result<Setup, SetupError> {
         let shown = file.display().to_string();
         let unreadable = |reason: String| SetupError::Unreadable { file: shown.clone(), reason };

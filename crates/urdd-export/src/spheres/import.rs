@@ -234,11 +234,11 @@ pub fn read_spheres(text: &str, account: &Account) -> Result<SphereList, ListErr
     if text.len() as u64 > MAX_SPHERES_BYTES {
         return Err(ListError::TooLong);
     }
-    words::check(text, account).map_err(|WordsFault { line, column, reason }| {
-        ListError::Text(format!("{reason} at line {line} column {column}"))
-    })?;
-    let document: Value =
-        serde_yaml::from_str(text).map_err(|error| ListError::Text(error.to_string()))?;
+    // JSON has no aliases, and YAML's readers keep each word of a line: it may be a key.
+    let document: Value = match serde_json::from_str(text) {
+        Ok(document) => document,
+        Err(_) => of_yaml(text, account)?,
+    };
     let kinematics =
         document.pointer("/robot_cfg/kinematics").or_else(|| document.get("kinematics"));
     let of_curobo = [kinematics, Some(&document)].into_iter().flatten();
@@ -258,6 +258,13 @@ pub fn read_spheres(text: &str, account: &Account) -> Result<SphereList, ListErr
         list.left_out.push("`collision_sphere_buffer`: radii are as the list has them".to_owned());
     }
     if list.links.is_empty() { Err(ListError::NoSpheres) } else { Ok(list) }
+}
+
+fn of_yaml(text: &str, account: &Account) -> Result<Value, ListError> {
+    words::check(text, account).map_err(|WordsFault { line, column, reason }| {
+        ListError::Text(format!("{reason} at line {line} column {column}"))
+    })?;
+    serde_yaml::from_str(text).map_err(|error| ListError::Text(error.to_string()))
 }
 
 /// How a form of lists says its spheres.

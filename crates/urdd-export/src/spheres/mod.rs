@@ -14,7 +14,7 @@ use nalgebra::Isometry3;
 
 use crate::pairs::Decision;
 use crate::{Choices, ExportError, Shapes, Subject};
-use urdd_directory::account::Account;
+use urdd_directory::account::AccountError;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::link_shapes_spheres::{SphereLevel, SphereOrigin};
 use urdd_format::registry::ModuleKind;
@@ -23,7 +23,7 @@ use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind, Solid};
 use urdd_spheres::fit::Limits;
 use urdd_spheres::fitted::{Numbers, auto_limits, fitted, surfaces};
 use urdd_spheres::frame::Point;
-use urdd_spheres::judge::PairFaults;
+use urdd_spheres::judge::{CostlyPair, PairFaults};
 use urdd_spheres::model::{Sphere, Spheres, count};
 use urdd_spheres::samples::{Ask, Moves, Pairs, Region, Sample, Sampler};
 use urdd_spheres::{cover, judge};
@@ -66,7 +66,7 @@ impl Model {
         } else {
             fitted(&Moving(subject.robot), &pairs, &surface, &numbers, &mut ignored, limits)?
         };
-        let measured = measure(subject.robot, &pairs, &spheres, &ignored, &numbers, near)?;
+        let measured = measure(subject, &pairs, &spheres, &ignored, &numbers, near)?;
         let mut written = Vec::new();
         for a in 0..pairs.links.len() {
             for b in a + 1..pairs.links.len() {
@@ -251,7 +251,7 @@ impl Measured {
 }
 
 fn measure(
-    robot: &Robot,
+    subject: &Subject,
     pairs: &Pairs,
     spheres: &Spheres,
     ignored: &[bool],
@@ -262,17 +262,20 @@ fn measure(
     if pairs.checked.is_empty() {
         return Ok(measured);
     }
-    let account = Account::default();
+    let Subject { robot, account, .. } = *subject;
     account.deposit(count(spheres) * SPHERE);
     let touch = |samples: &[Sample]| {
-        let found = judge::any_touching(spheres, &pairs.checked, ignored, samples, &account);
-        found.map_err(|costly| RobotError::Unusable {
-            module: ModuleKind::LinkShapesSpheres,
-            reason: format!(
-                "the spheres of links {:?}: {}",
-                costly.links.map(|link| pairs.links[link]),
-                costly.error
-            ),
+        account.cancellation().check()?;
+        let found = judge::any_touching(spheres, &pairs.checked, ignored, samples, account);
+        found.map_err(|CostlyPair { links, error }| match error {
+            AccountError::Cancelled(cancelled) => cancelled.into(),
+            AccountError::Overdrawn(error) => RobotError::Unusable {
+                module: ModuleKind::LinkShapesSpheres,
+                reason: format!(
+                    "the spheres of links {:?}: {error}",
+                    links.map(|link| pairs.links[link])
+                ),
+            },
         })
     };
     let sampler = Sampler { robot: &Moving(robot), pairs };

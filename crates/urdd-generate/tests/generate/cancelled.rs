@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use testkit::files::below;
+use testkit::repository;
 use testkit::robots::{made, our_robots};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::registry::ModuleKind;
@@ -49,4 +50,24 @@ fn generate_leaves_what_was_there() {
     let stopped = generate(&urdf, &target, &settings, &progress).unwrap_err();
     assert!(matches!(stopped, GenerateError::Cancelled), "{stopped}");
     assert_eq!(below(folder.path()), before);
+}
+
+/// Before any module begins: URDFs, and what is imported.
+#[test]
+fn generate_stops_while_it_reads() {
+    let arm = our_robots().swap_remove(8).1;
+    let models = ["mjcf/arm.xml", "sdf/model.sdf", "usd/scara.usda"];
+    let models = models.map(|model| repository().join("examples").join(model));
+    for source in models.into_iter().chain([arm]) {
+        let folder = testkit::temporary::folder();
+        let cancellation = Cancellation::default();
+        cancellation.cancel();
+        let begun = StopsAt(0, Cancellation::default());
+        let settings = settings(&cancellation);
+        let stopped = generate(&source, &folder.path().join("robot"), &settings, &begun);
+        let stopped = stopped.expect_err("cancelled");
+        assert_eq!(stopped.code(), "cancelled", "{}: {stopped}", source.display());
+        assert!(begun.1.check().is_ok(), "{}: a module began", source.display());
+        assert_eq!(below(folder.path()), BTreeMap::new(), "{}", source.display());
+    }
 }

@@ -12,6 +12,7 @@ mod mjcf;
 mod mjcf_faults;
 mod mjcf_meaning;
 mod mjcf_seen;
+mod run;
 mod sdf;
 mod usd;
 mod usd_mujoco;

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use urdd_directory::account::{Account, AccountError};
 use urdd_source::ImportOptions;
 use urdd_source::gate::Gate;
-use urdd_usd::{Place as LayerPlace, Stage, UsdError};
+use urdd_usd::{Fault as LayerFault, Place as LayerPlace, Stage, UsdError};
 
 use crate::fault::UsdFault;
 use crate::model::Model;
@@ -43,7 +43,10 @@ pub fn read(file: TextFile, gate: &Gate, options: &ImportOptions) -> Result<Mode
             (place, false) => format!("{place}: ").trim_start_matches(", ").to_owned(),
             (place, true) => format!("{}{place}: ", error.layer),
         };
-        let fault = UsdFault::Layer(format!("{place}{}", error.fault)).into();
+        let fault = match error.fault {
+            LayerFault::TooMuch(why @ AccountError::Cancelled(_)) => why.into(),
+            fault => UsdFault::Layer(format!("{place}{fault}")).into(),
+        };
         Placed { file: own.to_owned(), line, column, fault }
     };
     let stage = opened.map_err(refused)?;

@@ -20,6 +20,8 @@ const LEAST_REACH: f64 = 1e-3;
 
 /// Work for the pose of a link, or for the rows of a joint.
 const POSE: usize = 100;
+/// Work for a term of a coupling: its value, its derivative and its largest value.
+const TERM: usize = 400;
 /// By what the cube of the number of DOFs is divided: a sixth of it is multiplied, in long rows, a little faster than in short ones.
 const SOLVED: usize = 8;
 
@@ -181,7 +183,9 @@ impl Loops {
     pub(super) fn work_of(&self, group: &Group, kinematics: &ForwardKinematics) -> usize {
         let dofs = group.dofs.len();
         let steps = group.loops.iter().flat_map(|one| &self.loops[*one].steps).map(Vec::len);
+        let terms = group.couplings.iter().map(|one| self.couplings[*one].terms.len());
         let poses = POSE.saturating_mul(kinematics.num_links() + steps.sum::<usize>());
+        let poses = poses.saturating_add(TERM.saturating_mul(terms.sum()));
         let products = group.num_rows().saturating_mul(dofs.saturating_pow(2));
         poses.saturating_add(products).saturating_add(dofs.saturating_pow(3) / SOLVED)
     }

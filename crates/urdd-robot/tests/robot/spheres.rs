@@ -347,6 +347,21 @@ fn what_makes_no_sense_is_refused() {
     assert!(Obstacle::height_field("field", pose, &[0.0; 7], 0, [0.1; 2], 0.1).is_err());
 }
 
+/// As many as a lidar map has: one more is refused with words, before memory is taken for it. To take them is 7 s and 500 MB.
+#[test]
+fn more_than_ten_million_points_are_refused() {
+    const MOST: usize = 10_000_000;
+    let pose = Isometry3::identity();
+    let heights = vec![0.0; MOST + 1];
+    let field = |heights: &[f64]| {
+        Obstacle::height_field("field", pose, heights, 1, [0.01; 2], 0.1)
+            .map_err(|it| it.to_string())
+    };
+    assert!(Obstacle::check_count("field", MOST).is_ok());
+    let said = field(&heights).expect_err("too many");
+    assert!(said.contains("there are 10000001 points, and 10000000 are allowed"), "{said}");
+}
+
 /// The shapes of a robot against a cloud are those against as many balls; against a field, as many boxes.
 #[test]
 fn a_cloud_is_its_points_and_a_field_its_columns() {

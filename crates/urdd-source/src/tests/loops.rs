@@ -144,3 +144,19 @@ fn faults_of_extended_urdf_have_their_own_places() {
         assert!(said.starts_with(place), "{said}");
     }
 }
+
+/// Importers write files of up to 16 MiB.
+#[test]
+fn a_file_of_loops_has_at_most_16_mib() {
+    let read = |bytes: usize| {
+        let begin = "independent = [\"a\"]\n#";
+        let toml = format!("{begin}{}", "x".repeat(bytes - begin.len()));
+        let files = Files::in_memory([("x.loops.toml".to_owned(), Arc::from(toml.as_bytes()))]);
+        let settings = Settings { files: files.expect("files"), ..Settings::default() };
+        beside(Path::new("/x.urdf"), &settings).map(|said| said.is_some())
+    };
+    const MOST: usize = 16 << 20;
+    assert_eq!(read(MOST).map_err(|error| error.to_string()), Ok(true));
+    let refused = read(MOST + 1).map_err(|error| error.to_string()).expect_err("too long");
+    assert!(refused.starts_with("/x.loops.toml") && refused.contains("16 MiB"), "{refused}");
+}
