@@ -11,7 +11,7 @@ use super::output::{self, Failure, about, one_line, shown};
 use super::watch::Watch;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA};
-use urdd_directory::file_type::{FileType, HEAD, foreign, is_archive};
+use urdd_directory::file_type::{FileType, Foreign, HEAD, foreign, is_archive};
 use urdd_directory::limits::{MAX_DOCUMENT_BYTES, MAX_SRDF_BYTES};
 use urdd_directory::listing::ReadError;
 use urdd_directory::metadata::{Files, Replacement};
@@ -29,7 +29,7 @@ use urdd_source::{Format, RobotFile, Settings, XacroSettings, read_source};
 /// A message with advice if it cannot be opened.
 pub fn open(path: &Path) -> Result<Robot, Failure> {
     if path.is_file() && !is_archive(path) {
-        let is_urdf = RobotFile::at(path) == Some(RobotFile::Urdf);
+        let is_urdf = RobotFile::at(path) == Some(RobotFile::Urdf) && foreign_at(path).is_none();
         let path = path.display().to_string();
         if is_urdf {
             Err(format!(
@@ -115,15 +115,20 @@ pub fn advice(error: &DiscoverError) -> String {
     format!("{}: {}", one_line(path), of_file(Path::new(path)))
 }
 
+/// What a file is that is of no format of robots, as far as it can be read.
+fn foreign_at(path: &Path) -> Option<Foreign> {
+    let mut head = Vec::new();
+    regular::open(path).ok()?.take(HEAD).read_to_end(&mut head).ok()?;
+    foreign(&head)
+}
+
 /// What a file is: by its content, and by its name where that does not say.
 fn of_file(path: &Path) -> String {
     let by_content = RobotFile::at(path);
     let by_name = FileType::of(path);
     let is_other =
         !matches!(by_content, Some(RobotFile::Imported(_))) && by_name != Some(FileType::Document);
-    let mut head = Vec::new();
-    let read = regular::open(path).map(|file| file.take(HEAD).read_to_end(&mut head));
-    if let Some(foreign) = foreign(&head).filter(|_| is_other && matches!(read, Ok(Ok(_)))) {
+    if let Some(foreign) = foreign_at(path).filter(|_| is_other) {
         return foreign.to_string();
     }
     let by_name = by_name.filter(|_| by_content.is_none());

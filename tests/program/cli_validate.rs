@@ -468,12 +468,12 @@ fn files_of_other_formats_are_named() {
     let folder = testkit::temporary::folder();
     let root = folder.path();
     for (name, text, says) in [
-        ("a.sdf", "", "SDF"),
+        ("a.sdf", "<", "SDF"),
         ("a.xml", "<mujoco model=\"a\"/>", "MJCF"),
         ("b.xml", "<sdf/>", "SDF"),
         ("a.srdf", "<robot name=\"a\"/>", "SRDF"),
-        ("a.usd", "", "USD"),
-        ("a.xacro", "", "xacro"),
+        ("a.usd", "x", "USD"),
+        ("a.xacro", "<", "xacro"),
         ("a.txt", "x", "this is a file"),
     ] {
         fs::write(root.join(name), text).expect("written");

@@ -64,6 +64,10 @@ const JSON: &[(&str, &str)] = &[
     ("crates/urdd-directory/src/json_scan.rs", "a key of a document"),
     ("crates/urdd-directory/src/yaml/mod.rs", "a document that was read"),
     ("crates/urdd-directory/src/yaml/places.rs", "a number of a document"),
+    (
+        "crates/urdd-export/src/spheres/import.rs",
+        "the limit of a list of spheres, before it is read",
+    ),
     ("crates/urdd-findings/src/baseline.rs", "MAX_BASELINE_BYTES"),
     ("crates/urdd-format/src/registry.rs", "a document within MAX_DOCUMENT_BYTES"),
     ("crates/urdd-format/src/schema.rs", "the program's own"),

@@ -100,6 +100,10 @@ fn decoded_offsets(encoding: &'static Encoding, bytes: &[u8]) -> Vec<usize> {
 
 /// The text of a file.
 pub fn decode(bytes: &[u8], shown: &str, notes: &mut Vec<Note>) -> Result<Decoded, SourceError> {
+    // Zeros may be text, at the end of a URDF; in a mesh they are not.
+    if let Some(foreign) = foreign(bytes).filter(|_| bytes.contains(&0)) {
+        return Err(SourceError::unread(shown, foreign));
+    }
     let (bytes, mark, length) = match Encoding::for_bom(bytes) {
         Some((encoding, length)) => (&bytes[length..], Some(encoding), length),
         None => (bytes, None, 0),
@@ -144,8 +148,7 @@ pub fn decode(bytes: &[u8], shown: &str, notes: &mut Vec<Note>) -> Result<Decode
         }
         None => {
             if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
-                let plain = || format!("it is not a text file: its byte {at} is 0; give a URDF");
-                let reason = foreign(bytes).map_or_else(plain, |foreign| foreign.to_string());
+                let reason = format!("it is not a text file: its byte {at} is 0; give a URDF");
                 return Err(SourceError::unread(shown, reason));
             }
             let problem = "the file is not UTF-8, and declares no other encoding".to_owned();

@@ -36,7 +36,7 @@ fn what_is_no_robot_is_refused_with_advice() {
         ("none.xacro", "no such file"),
         ("bomb.urdf", "bomb.urdf:1:"),
         ("deep.urdf", "deep.urdf:1:"),
-        ("junk.urdf", "not a text file: its byte 5 is 0"),
+        ("junk.urdf", "this is a program: give the file that is meant"),
         ("robot.txt", "neither a URDF"),
         ("folder", "no URDD here"),
         ("folder.urdf", "no URDD here"),
