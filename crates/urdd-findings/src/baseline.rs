@@ -3,7 +3,7 @@
 //! A baseline counts the findings of a file by rule and link or joint, not by line: the file may grow. What is found more
 //! often than it was counted is reported.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -105,7 +105,8 @@ impl Baseline {
             return Vec::new();
         }
         let name = self.name(path, &examined.report);
-        let Some(counts) = self.files.get(&name) else {
+        let known = self.files.get_key_value(&name).or_else(|| self.before_arguments(&name, path));
+        let Some((name, counts)) = known else {
             return Vec::new();
         };
         let mut left = counts.clone();
@@ -133,13 +134,38 @@ impl Baseline {
             .collect()
     }
 
+    /// The robot of the same file that has some of the arguments and no others: what it was before urdd.toml gave it one more,
+    /// or one less. Of several, the one that has most.
+    fn before_arguments(
+        &self,
+        name: &str,
+        path: &Path,
+    ) -> Option<(&String, &BTreeMap<String, usize>)> {
+        let file = self.path(path);
+        let arguments = |name: &str| -> Option<BTreeSet<String>> {
+            let rest = name.strip_prefix(&file)?;
+            let words = rest.strip_prefix(' ').or(rest.is_empty().then_some(""))?;
+            Some(words.split_whitespace().map(str::to_owned).collect())
+        };
+        let own = arguments(name)?;
+        let alike = self.files.iter().filter_map(|(name, counts)| {
+            let other = arguments(name)?;
+            let is_alike = own.is_subset(&other) || other.is_subset(&own);
+            is_alike.then(|| (own.intersection(&other).count(), (name, counts)))
+        });
+        alike.max_by_key(|(common, _)| *common).map(|(_, found)| found)
+    }
+
     /// The name of a file as seen from the baseline's folder, outside of it its whole path; and the arguments of one of its
     /// robots.
     fn name(&self, path: &Path, urdf: &Urdd) -> String {
+        urdf.label_at(&self.path(path))
+    }
+
+    fn path(&self, path: &Path) -> String {
         let path = resolved(path);
         let inside = path.strip_prefix(&self.folder).unwrap_or(&path);
-        let path = inside.to_string_lossy().replace('\\', "/");
-        urdf.label_at(&path)
+        inside.to_string_lossy().replace('\\', "/")
     }
 }
 

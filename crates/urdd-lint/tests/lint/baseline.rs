@@ -35,6 +35,33 @@ fn what_was_there_is_left_out_wherever_it_moves_and_what_is_new_is_not() {
 }
 
 #[test]
+fn a_new_argument_in_urdd_toml_leaves_what_is_known_known() {
+    let (folder, file) = written(SLIDE);
+    let name = file.file_name().expect("a name").to_string_lossy().into_owned();
+    let known = Baseline::of(&linted(&file, &LintSettings::default()), folder.path()).to_json();
+    let key = format!("\"{name}\": {{");
+    assert!(known.contains(&key), "{known}");
+    let left = |robot: &str, arguments: &[&str]| {
+        let others = format!("\"{name}x\": {{}}, \"{name} type:=b\": {{}}, \"{name}{robot}\": {{");
+        let text = known.replace(&key, &others);
+        let baseline = Baseline::from_json(&text, folder.path()).expect("a baseline");
+        let mut examined =
+            urdd_lint::lint_text(SLIDE, &name, folder.path(), &LintSettings::default());
+        examined.report.xacro_arguments = arguments.iter().map(ToString::to_string).collect();
+        baseline.apply(&file, &mut examined);
+        examined.checks.iter().map(|check| check.findings.len()).sum::<usize>()
+    };
+    assert_eq!(left(" type:=a", &["type:=a"]), 0);
+    // One more, in front of it or behind, and one less.
+    assert_eq!(left(" type:=a", &["side:=left", "type:=a"]), 0);
+    assert_eq!(left(" type:=a", &["type:=a", "z:=1"]), 0);
+    assert_eq!(left(" side:=left type:=a", &["type:=a"]), 0);
+    // Another value is another robot.
+    assert_eq!(left(" type:=a", &["type:=c"]), 1);
+    assert_eq!(left(" type:=a", &["type:=b", "z:=1"]), 1);
+}
+
+#[test]
 fn other_files_are_no_baselines() {
     let folder = std::path::Path::new(".");
     for text in

@@ -110,6 +110,7 @@ fn a_robot_beyond_its_limits_is_not_examined_and_the_others_are() {
         assert_eq!((good.verdict, good.reason.as_deref()), (Verdict::Pass, None));
     }
     assert_eq!((slow.verdict, slow.checks.len()), (Verdict::Unreadable, 0));
-    let reason = "more than 7 MB of memory, the limit of --max-memory; raise it for a robot that you trust";
+    let reason =
+        "more than 7 MB of memory, the limit of --max-memory; raise it for a robot that you trust";
     assert_eq!(slow.reason.as_deref(), Some(reason));
 }
