@@ -51,7 +51,7 @@ pub fn of_files(snapshot: &Snapshot, project: &Project) -> Vec<Found> {
             return found;
         }
         Err(error) => {
-            found.push(at_the_top(snapshot, DiagnosticSeverity::ERROR, &error.to_string()));
+            found.push(of_error(snapshot, path, &error));
             return found;
         }
     };
@@ -69,6 +69,23 @@ pub fn of_files(snapshot: &Snapshot, project: &Project) -> Vec<Found> {
         }
     }
     found
+}
+
+/// Why there is no robot, at its place in the document; of one in another file, at the top, with that place beside it.
+fn of_error(snapshot: &Snapshot, path: &Path, error: &SourceError) -> Found {
+    let severity = DiagnosticSeverity::ERROR;
+    let mut top = at_the_top(snapshot, severity, &error.to_string());
+    let Some(at) = error.place().filter(|at| at.line > 0) else { return top };
+    let file = fs::canonicalize(&at.file).unwrap_or_default();
+    if fs::canonicalize(path).is_ok_and(|own| own == file) {
+        let begin = snapshot.text.reported(at.line as usize, at.column as usize);
+        top.diagnostic.range = snapshot.text.range(begin..snapshot.text.line_end(begin).max(begin));
+    } else {
+        let place = line_of(&file, at.line as usize);
+        top.diagnostic.related_information =
+            place.map(|place| vec![further(place, "xacro stops here")]);
+    }
+    top
 }
 
 /// Whether only other files make a robot of it: `<robot>` without a name.

@@ -35,8 +35,8 @@ pub const KEPT: usize = 10_000;
 /// What a program does with a file, as its reader finds it out. What the program refuses first is always among what is kept.
 ///
 /// A reader goes on behind a refusal as if it were mended, as far as what comes then does not depend on how it is mended.
-/// [`Effects::refuse_mendable`] is for a value that nothing else needs. After [`Effects::refuse`] the rest of the part is
-/// not read: whoever reads a robot's parts one by one goes on with the next, and asks [`Effects::are_read`] before what
+/// `refuse_mendable` is for a value that nothing else needs. After `refuse` the rest of the part is
+/// not read: whoever reads a robot's parts one by one goes on with the next, and asks `are_read` before what
 /// needs all of them.
 #[derive(Debug, Clone, Default)]
 pub struct Effects {

@@ -70,7 +70,7 @@ fn nothing_is_said_that_follows_from_what_is_refused() {
             }
             refused += 1;
             let others = effects.kept().iter().filter(|effect| effect.is_supposed);
-            let others = others.map(|effect| kind_of(effect)).filter(|kind| !known.contains(kind));
+            let others = others.map(kind_of).filter(|kind| !known.contains(kind));
             let others: Vec<String> = others.collect();
             if !others.is_empty() {
                 let first = effects.kept().iter().find(|effect| effect.deed >= Deed::Refuses);
