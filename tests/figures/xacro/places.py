@@ -150,7 +150,7 @@ UNREADABLE = {
     ),
     "invalid parameter": (
         {"urdf/r.urdf.xacro": main_file('  <xacro:part name="a" mas="1"/>\n'), "urdf/part.xacro": PART},
-        "urdf/r.urdf.xacro:3:3:",
+        "urdf/r.urdf.xacro:3:24:",
         "mas",
     ),
     "unknown macro": (
