@@ -156,7 +156,9 @@ fn candidates(urdf: &Subject) -> Vec<SrdfFile> {
 
 /// What xacro makes of an SRDF with these arguments; `None` where it makes nothing: LNT063 is about what is read.
 fn expand(urdf: &Subject, path: &Path, arguments: &[String]) -> Option<(String, Option<Trail>)> {
-    let source = urdf.settings.source.with_declared(arguments);
+    let mut source = urdf.settings.source.with_declared(arguments);
+    // They are those of the URDF: the SRDF need not take them all.
+    source.xacro.declared = 0;
     let made = read_source(path, &source).ok()?;
     Some((made.text, made.trail))
 }

@@ -105,9 +105,9 @@ fore:
   lower: -2.0
   upper: 2.0
 """,
-    "config/arm.srdf": """\
+    "config/arm.srdf.xacro": """\
 <?xml version="1.0"?>
-<robot name="arm">
+<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <group name="stand"><link name="base"/></group>
 </robot>
 """,
@@ -127,7 +127,7 @@ CHANGES = [
     ("mesh", "urdf/arm_macro.xacro", "meshes/bar.stl", "meshes/bars.stl"),
     ("macro", "urdf/arm.urdf.xacro", 'mass="1.5"', 'weight="1.5"'),
     ("YAML", "config/limits.yaml", "  lower: -2.0", "  lower: -2,0"),
-    ("SRDF", "config/arm.srdf", '<link name="base"/>', '<link name="bsae"/>'),
+    ("SRDF", "config/arm.srdf.xacro", '<link name="base"/>', '<link name="bsae"/>'),
     ("controller", "urdf/arm.ros2_control.xacro", '<joint name="${prefix}fore_joint">', '<joint name="${prefix}four_joint">'),
     ("velocity", "urdf/arm.urdf.xacro", 'velocity="2.0"', 'velocity="200.0"'),
 ]
