@@ -9,7 +9,7 @@ use urdd_directory::position::Position;
 use urdd_format::escape;
 
 use crate::fault::PlacedFault;
-use crate::note::SourcePlace;
+use crate::note::{MacroCall, SourcePlace};
 use crate::untaken::Untaken;
 
 /// Maximum number of faults of a file that are shown one by one.
@@ -145,15 +145,6 @@ pub struct XacroFault {
     pub place: Option<SourcePlace>,
     /// The calls of macros around that, innermost first.
     pub calls: Vec<MacroCall>,
-}
-
-/// A call of a macro.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct MacroCall {
-    /// Where it is.
-    pub place: SourcePlace,
-    /// The macro's name.
-    pub name: String,
 }
 
 /// Where xacro failed, and at what.

@@ -46,7 +46,7 @@ mod xacro;
 pub use decode::{
     Decoded, Decoding, Original, Repaired, TextOffsets, decode, mend_xml, undeclared_prefix,
 };
-pub use error::{MacroCall, SourceError, XacroFault};
+pub use error::{SourceError, XacroFault};
 pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};
 pub use folder_facts::FolderFacts;
 pub use format::{Format, RobotFile, format_of, robot_file};
@@ -56,6 +56,7 @@ pub use load::{
     stem,
 };
 pub use meshes::{MissingMesh, NamedMesh, SourceMesh, SourceMeshes, mesh_files, named};
+pub use note::MacroCall;
 pub use packages::{Around, NearPackage, PackagePathError, Packages};
 pub use resolve::{FoundMesh, NotFound, OtherCase};
 pub use roots::Place;

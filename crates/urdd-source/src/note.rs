@@ -102,6 +102,15 @@ pub struct SourcePlace {
     pub column: u32,
 }
 
+/// A call of a macro.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MacroCall {
+    /// Where it is.
+    pub place: SourcePlace,
+    /// The macro's name.
+    pub name: String,
+}
+
 impl fmt::Display for SourcePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // One line: a name must not add line breaks.

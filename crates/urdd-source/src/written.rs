@@ -9,10 +9,9 @@ use urdd_directory::regular;
 use urdd_xml::Node;
 use urdd_xml::element::name;
 
-use crate::error::MacroCall;
 use crate::fault::{Fault, PlacedFault};
 use crate::files::MAX_SOURCE_BYTES;
-use crate::note::SourcePlace;
+use crate::note::{MacroCall, SourcePlace};
 use crate::trail::{ElementPlace, Trail, ValuePlace};
 
 /// A place in a file that a person wrote.

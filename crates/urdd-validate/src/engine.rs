@@ -24,6 +24,7 @@ use urdd_directory::root::{ReadError, Root};
 use urdd_document::carried_urdf::{self, CarriedUrdf};
 use urdd_document::mechanism::Mechanism;
 use urdd_document::module::Module;
+use urdd_findings::answer;
 use urdd_findings::check::Examined;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
@@ -32,7 +33,7 @@ use urdd_findings::finding::Findings;
 use urdd_findings::part::SkipReason;
 use urdd_findings::part::{Faulted, Part, Scope};
 use urdd_format::registry::{ModuleKind, Profile};
-use urdd_format::report::Kind;
+use urdd_format::report::{Cause, Kind, NotExamined};
 use urdd_xml::Xml;
 
 /// Examines a URDF with the rules that apply to it.
@@ -41,10 +42,15 @@ pub fn examine_urdf_file(found: &Found, rules: &[&'static Rule]) -> Result<Exami
     Ok(examine_carried(urdf, None, &found.name, rules))
 }
 
+/// Why a URDD or URDF was not examined that cannot be read.
+pub(crate) fn unread(error: ReadError) -> NotExamined {
+    answer::not_examined(Cause::Unreadable, error.to_string())
+}
+
 /// Examines the text of a URDF with the rules that need nothing else. `name` is its name in the report.
 pub fn examine_urdf(xml: &Xml<'_>, name: &str) -> Examined {
     Examined::caught(Kind::Urdf, name, || {
-        let urdf = CarriedUrdf::of_bytes(name, xml.text().as_bytes()).map_err(crate::unread)?;
+        let urdf = CarriedUrdf::of_bytes(name, xml.text().as_bytes()).map_err(unread)?;
         // A byte order mark is not part of the URDF.
         let reading = (urdf.text == xml.text()).then(|| urdf_text::of(xml));
         Ok(examine_carried(urdf, reading, name, &rules::all()))

@@ -77,7 +77,7 @@ use urdd_findings::answer;
 use urdd_findings::check::Examined;
 use urdd_findings::description::Severity;
 use urdd_findings::places;
-use urdd_format::report::{Cause, Kind, NotExamined, Status};
+use urdd_format::report::{Kind, Status};
 use urdd_xml::Xml;
 
 /// Why a run has no result.
@@ -136,7 +136,7 @@ pub fn validate_with<P: AsRef<Path>>(
                     Ok(examine(Urdd::read(&own.path)?, &own.name, &settings, &rules))
                 }
             };
-            Examined::caught(kind, &own.name, || examine().map_err(unread))
+            Examined::caught(kind, &own.name, || examine().map_err(engine::unread))
         };
         let examined = watched(run, &found.name, work);
         let mut examined = examined.unwrap_or_else(|limit| {
@@ -149,11 +149,6 @@ pub fn validate_with<P: AsRef<Path>>(
     settings.cancellation.check()?;
     let folders = all.into_iter().map(|(_, found)| found.path);
     Ok(Run::of(examined, folders.collect(), excluded, settings))
-}
-
-/// Why a URDD or URDF was not examined that cannot be read.
-pub(crate) fn unread(error: ReadError) -> NotExamined {
-    answer::not_examined(Cause::Unreadable, error.to_string())
 }
 
 /// The URDF at a path: its folder, and its file name.
@@ -203,7 +198,7 @@ fn run_of(
     load: impl FnOnce() -> Result<Urdd, ReadError>,
 ) -> Result<Run, ValidateError> {
     let examined = Examined::caught(Kind::Urdd, name, || {
-        Ok(examine_with(load().map_err(unread)?, urdf, name, settings, &rules::all()))
+        Ok(examine_with(load().map_err(engine::unread)?, urdf, name, settings, &rules::all()))
     });
     settings.cancellation.check()?;
     Ok(alone(examined, name.into(), settings))
