@@ -37,7 +37,7 @@ def test_it_says_what_programs_do() -> None:
     assert does["mujoco"] is None
     (finding,) = urdf.findings
     assert {one.program for one in finding.programs} == refusing
-    assert Does("pinocchio", "refuses") in finding.places[0].programs
+    assert Does("pinocchio", "refuses", False) in finding.places[0].programs
     pinocchio = next(program for program in urdf.programs if program.program == "pinocchio")
     (effect,) = [effect for effect in pinocchio.effects if not effect.is_usual]
     lines = REFUSED.read_text(encoding="utf-8").splitlines()
