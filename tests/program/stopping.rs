@@ -317,7 +317,7 @@ fn in_a_batch_others_have_their_results() {
     let robots = ["robots/a.urdf", "robots/b.urdf.xacro", "robots/c.urdf"];
     robots.iter().for_each(|robot| fs::write(shop.at(robot), ARM).unwrap());
     // Long enough for an arm of two links on a busy machine.
-    let limit = ["--xacro", "--max-time", "10"];
+    let limit = ["--xacro", "--max-time", "20"];
     let lint = ["lint", "robots", "--format", "json"];
     let (lint, generate) = std::thread::scope(|scope| {
         let generate = scope.spawn(|| {
@@ -337,7 +337,7 @@ fn in_a_batch_others_have_their_results() {
         (one["path"].as_str().unwrap(), one["verdict"].as_str().unwrap(), one["reason"].as_str())
     };
     let reason =
-        "not finished within 10 s, the limit of --max-time; raise it for a robot that you trust";
+        "not finished within 20 s, the limit of --max-time; raise it for a robot that you trust";
     assert_eq!(told(1), ("b.urdf.xacro", "unreadable", Some(reason)));
     for (at, path) in [(0, "a.urdf"), (2, "c.urdf")] {
         assert_eq!((told(at).0, told(at).2), (path, None));
@@ -349,7 +349,7 @@ fn in_a_batch_others_have_their_results() {
     }
     assert!(!shop.at("out/b").exists());
     let said = String::from_utf8_lossy(&generate.stderr).into_owned();
-    assert!(said.contains("robots/b.urdf.xacro: not finished within 10 s"), "{said}");
+    assert!(said.contains("robots/b.urdf.xacro: not finished within 20 s"), "{said}");
 }
 
 /// One that does not stop is left behind.
