@@ -241,12 +241,13 @@ impl ReportArguments {
 
 /// The exit status of a run. Where nothing was examined it is that of nothing to examine.
 pub(super) fn status(report: &Report) -> u8 {
-    let not_examined = || report.urdds.iter().filter_map(|urdd| urdd.not_examined.as_ref());
+    let totals = &report.totals;
+    let mut open = report.urdds.iter().filter_map(|urdd| urdd.not_examined.as_ref());
     if report.count(Verdict::Incomplete) > 0 {
         INTERNAL
-    } else if not_examined().count() == report.urdds.len() && !report.urdds.is_empty() {
+    } else if totals.not_examined == totals.urdds && totals.urdds.get() > 0 {
         output::USAGE
-    } else if report.count(Verdict::Fail) > 0 || not_examined().any(|why| why.is_asked_for) {
+    } else if totals.failed.get() > 0 || open.any(|why| why.is_asked_for) {
         FINDINGS
     } else {
         CONFORMING

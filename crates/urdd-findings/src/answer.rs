@@ -24,11 +24,6 @@ pub enum Answer {
 pub struct Looked(NonZeroUsize);
 
 impl Looked {
-    /// The number of rules.
-    pub fn rules(self) -> usize {
-        self.0.get()
-    }
-
     /// None if no rule looked at anything: each was skipped because something that it needs is wrong or missing, or there is
     /// none.
     fn at(urdd: &Urdd) -> Option<Looked> {

@@ -4,21 +4,19 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use urdd_directory::position::{LineIndex, Position};
-use urdd_directory::regular;
 use urdd_format::nearest::nearest;
 use urdd_xml::element::name;
 
-use crate::files::MAX_SOURCE_BYTES;
 use crate::trail::Trail;
-use crate::written::seen_from;
+use crate::written::SourceFiles;
 
 /// An argument that no file takes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Untaken {
     /// Its name.
     pub name: String,
-    /// The declared argument that may be meant, and that has no value: the one of the nearest name, or the only one; its file, as seen from the folder of the one that
-    /// was expanded, and its place.
+    /// The declared argument that may be meant, and that has no value: the one of the nearest name, or the only one; its file,
+    /// as seen from the folder of the one that was expanded, and its place.
     pub nearest: Option<(String, String, Position)>,
 }
 
@@ -33,20 +31,24 @@ pub(crate) fn untaken<'a>(
     if given.is_empty() || trail.files.is_empty() {
         return Vec::new();
     }
-    let folder = file.parent().unwrap_or(Path::new(""));
-    let (mut declared, mut open, mut left) = (Vec::new(), given.clone(), MAX_SOURCE_BYTES);
-    for path in &trail.files {
+    let files = SourceFiles::new(trail, file);
+    let mut open = given.clone();
+    for (_, text) in files.texts() {
         // Of a file that cannot be read, nothing is known.
-        let Ok(bytes) = regular::read(path, left) else { return Vec::new() };
-        left -= bytes.len() as u64;
-        let Ok(text) = String::from_utf8(bytes) else { return Vec::new() };
-        open.retain(|name| !uses(&text, name));
-        let Ok(document) = urdd_xml::parse(&text, urdd_xml::Kind::Robot) else { continue };
-        let lines = LineIndex::new(&text);
+        let Some(text) = text else { return Vec::new() };
+        open.retain(|name| !uses(text, name));
+    }
+    if open.is_empty() {
+        return Vec::new();
+    }
+    let mut declared = Vec::new();
+    for (file, text) in files.texts().filter_map(|(file, text)| Some((file, text?))) {
+        let Ok(document) = urdd_xml::parse(text, urdd_xml::Kind::Robot) else { continue };
+        let lines = LineIndex::new(text);
         let arguments = document.descendants().filter(|node| name(*node) == "xacro:arg");
         declared.extend(arguments.filter_map(|node| {
             let at = lines.position(node.range().start);
-            Some((node.attribute("name")?.to_owned(), seen_from(path, folder), at))
+            Some((node.attribute("name")?.to_owned(), file.to_owned(), at))
         }));
     }
     open.retain(|name| declared.iter().all(|(known, ..)| known != name));

@@ -56,13 +56,13 @@ pub struct Written {
 
 /// The files of a trail: their names as [`WrittenPlace`] has them, whether they are the one that was expanded, and their
 /// texts where these could be read.
-struct SourceFiles(Vec<(String, bool, Option<String>)>);
+pub(crate) struct SourceFiles(Vec<(String, bool, Option<String>)>);
 
 /// The texts of files by the files' numbers.
 type Sources<'a> = HashMap<usize, (Marked<'a>, LineIndex<'a>)>;
 
 impl SourceFiles {
-    fn new(trail: &Trail, file: &Path) -> Self {
+    pub(crate) fn new(trail: &Trail, file: &Path) -> Self {
         let main = file.canonicalize().unwrap_or_else(|_| file.to_owned());
         let folder = main.parent().unwrap_or(Path::new("")).to_owned();
         let mut left = MAX_SOURCE_BYTES;
@@ -75,6 +75,11 @@ impl SourceFiles {
             (seen_from(path, &folder), *path == main, text)
         });
         SourceFiles(files.collect())
+    }
+
+    /// The name of each file with its text, if that could be read.
+    pub(crate) fn texts(&self) -> impl Iterator<Item = (&str, Option<&str>)> {
+        self.0.iter().map(|(file, _, text)| (file.as_str(), text.as_deref()))
     }
 
     /// Where a place is, more exactly than it was noted: at the attribute, and at the parameter in it.

@@ -5,12 +5,14 @@ use std::fmt::{self, Write};
 
 use super::human::{self, times};
 use super::programs::cell;
-use super::style::{NOT_EXAMINED, is_a_finding, unit};
+use super::style::unit;
+use super::unexamined::{NOT_EXAMINED, place_in, unexamined};
 use super::variants::Variants;
 use crate::run::{file_in, is_inside};
 use urdd_format::escape;
+use urdd_format::index::Count;
 use urdd_format::readable::counted;
-use urdd_format::report::{Kind, Report, Severity, Status, Urdd};
+use urdd_format::report::{Place, Report, Severity, Status, Urdd};
 
 /// Writes the report. `places` are the folders of its URDDs (see [`super::place::places`]).
 ///
@@ -19,21 +21,14 @@ use urdd_format::report::{Kind, Report, Severity, Status, Urdd};
 pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::Result {
     let variants = Variants::by_first_place(report, places);
     for (number, (urdd, place)) in report.urdds.iter().zip(places).enumerate() {
-        if let Some(why) = urdd.not_examined.as_ref().filter(|_| !is_a_finding(urdd)) {
-            // A folder is no file that Actions shows.
-            let name = urdd.path.rsplit('/').next().filter(|_| urdd.kind == Kind::Urdf);
-            let known = why.file.as_deref().filter(|file| is_inside(place, Some(file)));
+        if let Some(why) = unexamined(urdd) {
             let command = if why.is_asked_for { "error" } else { "warning" };
-            write!(out, "::{command} file={}", property(&file_in(place, known.or(name))))?;
-            if let (Some(_), Some(line)) = (known, why.line) {
-                write!(out, ",line={line}")?;
-                why.column.map_or(Ok(()), |column| write!(out, ",col={column}"))?;
-            }
+            write_place(command, place, &place_in(urdd, place, why), out)?;
             let mut text = why.reason.clone();
             for argument in &urdd.xacro_arguments {
                 text += &format!("; with {argument}");
             }
-            writeln!(out, ",title={}::{}", NOT_EXAMINED, data(&text))?;
+            writeln!(out, ",title={NOT_EXAMINED}::{}", data(&text))?;
         }
         for check in urdd.checks.iter().filter(|check| check.status == Status::Crashed) {
             let reason = data(check.reason.as_deref().unwrap_or_default());
@@ -48,15 +43,14 @@ pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::
                 Severity::Warning => "warning",
                 Severity::Info => "notice",
             };
-            let file = property(&file_in(place, finding.file.as_deref()));
-            write!(out, "::{command} file={file}")?;
+            let at = Place {
+                file: finding.file.clone(),
+                line: finding.line,
+                column: finding.column,
+                ..Place::default()
+            };
+            write_place(command, place, &at, out)?;
             let is_inside = is_inside(place, finding.file.as_deref());
-            if let Some(line) = finding.line.filter(|_| is_inside) {
-                write!(out, ",line={line}")?;
-            }
-            if let Some(column) = finding.column.filter(|_| is_inside) {
-                write!(out, ",col={column}")?;
-            }
             let mut text = finding.message.clone();
             let first = finding.places.first();
             let parts = [
@@ -85,6 +79,17 @@ pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::
         }
     }
     Ok(())
+}
+
+/// Begins a command about a place in the folder of a URDD or URDF.
+fn write_place(command: &str, folder: &str, place: &Place, out: &mut impl Write) -> fmt::Result {
+    let file = place.file.as_deref();
+    write!(out, "::{command} file={}", property(&file_in(folder, file)))?;
+    let shown = |number: Option<Count>| number.filter(|_| is_inside(folder, file));
+    if let Some(line) = shown(place.line) {
+        write!(out, ",line={line}")?;
+    }
+    shown(place.column).map_or(Ok(()), |column| write!(out, ",col={column}"))
 }
 
 fn data(text: &str) -> String {

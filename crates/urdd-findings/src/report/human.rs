@@ -13,16 +13,16 @@ use urdd_format::readable::{counted, number};
 use urdd_format::registry::ModuleKind;
 
 use super::style::{
-    BOLD, DIM, GREEN, RED, Style, YELLOW, is_a_finding, is_in_part, list, severity, unit,
-    unverified,
+    BOLD, DIM, GREEN, RED, Style, YELLOW, is_in_part, list, severity, unit, unverified,
 };
+use super::unexamined::{self, NOT_EXAMINED, unexamined};
 use super::variants::Variants;
 use super::{programs, summary};
 use crate::part::SkipReason;
 use crate::run::by_reason;
 use urdd_format::report::{
-    Cause, CheckStatus, Deed, Finding, ImportedFrom, Kind, MacroPlace, Magnitude, NotExamined,
-    Place, Report, Skipped, Status, Urdd, Verdict,
+    Cause, CheckStatus, Deed, Finding, ImportedFrom, Kind, MacroPlace, Magnitude, Place, Report,
+    Skipped, Status, Urdd, Verdict,
 };
 
 /// Maximum number of URDDs that are shown one by one. More are summarized.
@@ -79,8 +79,8 @@ fn write_urdd(
         style.paint(BOLD, safe(&urdd.label())),
         style.paint(DIM, describe(urdd))
     )?;
-    if let Some(why) = urdd.not_examined.as_ref().filter(|_| !is_a_finding(urdd)) {
-        if let Some(at) = place_of(why) {
+    if let Some(why) = unexamined(urdd) {
+        if let Some(at) = unexamined::words(why) {
             writeln!(out, "  at {}", safe(&at))?;
         }
         let what = if why.cause == Cause::Unreadable { "it cannot be read: " } else { "" };
@@ -113,14 +113,6 @@ fn write_urdd(
         }
     }
     writeln!(out)
-}
-
-/// The place of a reason, as `file:line:column`.
-pub(super) fn place_of(why: &NotExamined) -> Option<String> {
-    let file = why.file.clone()?;
-    let line = why.line.map(|line| format!(":{line}")).unwrap_or_default();
-    let column = why.column.map(|column| format!(":{column}")).unwrap_or_default();
-    Some(file + &line + &column)
 }
 
 fn write_findings(
@@ -371,20 +363,19 @@ fn write_programs(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Resul
 
 fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
     let totals = &report.totals;
-    let not_examined = report.urdds.iter().filter(|urdd| urdd.not_examined.is_some()).count();
-    let crashed = report.urdds.iter().filter(|urdd| urdd.verdict == Verdict::Incomplete);
-    let parts =
-        report.urdds.iter().filter(|urdd| urdd.verdict == Verdict::Pass && is_in_part(urdd));
+    let parts = report.urdds.iter();
+    let parts = parts.filter(|urdd| urdd.verdict == Verdict::Pass && is_in_part(urdd));
     let parts = match parts.count() {
         0 => String::new(),
         count => format!(" ({count} in part)"),
     };
     let passed = format!("passed{parts}");
+    let failed = report.count(Verdict::Fail);
     let verdicts = [
-        (report.count(Verdict::Pass), passed.as_str()),
-        (report.count(Verdict::Fail), "failed"),
-        (crashed.filter(|urdd| urdd.not_examined.is_none()).count(), "incomplete"),
-        (not_examined, "not examined"),
+        (totals.passed.get(), passed.as_str()),
+        (failed, "failed"),
+        (totals.failed.get() - failed, "incomplete"),
+        (totals.not_examined.get(), NOT_EXAMINED),
     ];
     let some = verdicts.into_iter().filter(|(count, _)| *count > 0);
     let verdicts: Vec<String> = some.map(|(count, word)| format!("{count} {word}")).collect();

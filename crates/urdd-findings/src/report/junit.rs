@@ -10,7 +10,7 @@ use std::io;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 
-use super::human;
+use super::{human, unexamined};
 use crate::run::Run;
 use urdd_format::escape;
 use urdd_format::report::{CheckStatus, Finding, Severity, Status, Urdd};
@@ -61,7 +61,7 @@ impl Suite {
         let mut cases: Vec<Case> = checks.map(case).collect();
         if let Some(why) = &urdd.not_examined {
             let element = if why.is_asked_for { "error" } else { "skipped" };
-            let at = human::place_of(why).map(|at| format!("{at}: ")).unwrap_or_default();
+            let at = unexamined::words(why).map(|at| format!("{at}: ")).unwrap_or_default();
             let text = allowed(&(at + &why.reason));
             let outcome = (element, why.cause.as_str().to_owned(), text, String::new());
             cases.push(Case {

@@ -8,6 +8,7 @@ pub mod sarif;
 pub mod style;
 #[doc(hidden)]
 pub mod summary;
+mod unexamined;
 mod variants;
 
 /// Paths of URDDs relative to the working directory.

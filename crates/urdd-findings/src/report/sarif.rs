@@ -10,7 +10,8 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::human::macro_of;
-use super::style::{NOT_EXAMINED, is_a_finding, unverified};
+use super::style::unverified;
+use super::unexamined::{NOT_EXAMINED, own_file, place_in, unexamined};
 use super::variants::Variants;
 use crate::code::Code;
 use crate::description::Description;
@@ -19,8 +20,7 @@ use urdd_format::escape;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::readable::number;
 use urdd_format::report::{
-    CheckStatus, Finding, Fix, Kind, MacroPlace, NotExamined, Place, Severity, Status, Urdd,
-    WrittenAt,
+    CheckStatus, Finding, Fix, MacroPlace, Place, Severity, Status, Urdd, WrittenAt,
 };
 
 /// Base of relative paths: the working directory, under the name that readers of SARIF use for the root of a
@@ -204,24 +204,16 @@ fn results(
     let shown = results.filter(|(own, _)| !variants.is_repeated(robot, *own));
     let mut results: Vec<Value> = shown.map(|(_, result)| result).collect();
     results.extend(unexamined(urdd).map(|why| {
-        let at = Place {
-            file: why.file.clone(),
-            line: why.line,
-            column: why.column,
-            ..Place::default()
-        };
-        let at = if is_inside(place, at.file.as_deref()) { at } else { Place::default() };
-        let name = urdd.path.rsplit('/').next().filter(|_| urdd.kind == Kind::Urdf);
-        let at = Place { file: at.file.or_else(|| name.map(str::to_owned)), ..at };
         let with = urdd.xacro_arguments.join(" ");
         let with = if with.is_empty() { with } else { format!("\nWith: {}", escape::line(&with)) };
-        let kind = [UNEXAMINED.to_owned(), urdd.label_at(&file_in(place, name)), String::new()];
+        let own = urdd.label_at(&file_in(place, own_file(urdd)));
+        let kind = [UNEXAMINED.to_owned(), own, String::new()];
         json!({
             "ruleId": UNEXAMINED,
             "ruleIndex": rules.len(),
             "level": if why.is_asked_for { "error" } else { "warning" },
             "message": message(&(escape::line(&why.reason).into_owned() + &with)),
-            "locations": [location(place, &at)],
+            "locations": [location(place, &place_in(urdd, place, why))],
             "partialFingerprints": {"urddFinding/v1": fingerprint(&kind, 1)},
         })
     }));
@@ -230,11 +222,6 @@ fn results(
 
 /// The id of the results for what was not examined; no rule has it.
 const UNEXAMINED: &str = "not-examined";
-
-/// Why something was not examined, where no finding says it.
-fn unexamined(urdd: &Urdd) -> Option<&NotExamined> {
-    urdd.not_examined.as_ref().filter(|_| !is_a_finding(urdd))
-}
 
 fn describe_unexamined() -> Value {
     let text = "Nothing is known of this robot: it was not examined, so it does not pass.";

@@ -82,14 +82,6 @@ pub(super) fn unit(report: &Report) -> &'static str {
     if !report.urdds.is_empty() && report.urdds.iter().all(is_urdf) { "URDF" } else { "URDD" }
 }
 
-/// What is said of what was not examined.
-pub(super) const NOT_EXAMINED: &str = "not examined";
-
-/// Whether a finding says why something was not examined: LNT065, with the lines to write.
-pub(super) fn is_a_finding(urdd: &Urdd) -> bool {
-    !urdd.findings.is_empty()
-}
-
 /// Whether rules could not look at a part of it: at meshes that are not there, at rates that were not counted.
 pub(super) fn is_in_part(urdd: &Urdd) -> bool {
     !urdd.geometry_not_verified.is_empty() || urdd.model_not_verified.is_some()
