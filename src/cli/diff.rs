@@ -17,7 +17,7 @@ use urdd_diff::{
 use urdd_directory::cancellation::Cancellation;
 use urdd_findings::settings_file::{SETTINGS_FILE, SettingsFile};
 use urdd_lint::declared;
-use urdd_source::{Settings, format_of};
+use urdd_source::{Settings, XacroSettings, format_of};
 use urdd_validate::report;
 
 /// Arguments of `urdd diff`.
@@ -89,16 +89,21 @@ impl DiffArguments {
         Ok(Some([(&self.before, before), (&self.after, after)]))
     }
 
-    /// The arguments for xacro of A and B: those on the command line; without any, those that are declared of each. Where
-    /// nobody declares A, as a temporary file of git, it is another version of B.
-    fn of_xacro(&self) -> Result<[Vec<String>; 2], Failure> {
+    /// How xacro expands A and B: with the arguments on the command line; without any, with those that are declared of each,
+    /// which it has to take. Where nobody declares A, as a temporary file of git, it is another version of B.
+    fn of_xacro(&self) -> Result<[XacroSettings; 2], Failure> {
         let given = only_arguments(&self.more)?;
         if !given.is_empty() {
-            return Ok([given.clone(), given]);
+            return Ok([given.clone(), given].map(|given| self.xacro.settings(given)));
         }
+        let declared =
+            |of: Vec<String>| XacroSettings { declared: of.len(), ..self.xacro.settings(of) };
         let after = self.declared.arguments_of(&self.after)?.unwrap_or_default();
-        let before = self.declared.arguments_of(&self.before)?;
-        Ok([before.unwrap_or_else(|| after.clone()), after])
+        let before = match self.declared.arguments_of(&self.before)? {
+            Some(before) => declared(before),
+            None => self.xacro.settings(after.clone()),
+        };
+        Ok([before, declared(after)])
     }
 }
 
@@ -149,10 +154,10 @@ fn diff(arguments: &DiffArguments, cancellation: &Cancellation) -> Result<u8, Fa
         return diff_folders(arguments, folders, &settings);
     }
     let [of_before, of_after] = arguments.of_xacro()?;
-    let open = |path: &PathBuf, of_xacro: Vec<String>| {
+    let open = |path: &PathBuf, xacro: XacroSettings| {
         let loops = settings.loops.clone().filter(|_| !(is_of_one && says_itself(path)));
         let options = Options {
-            urdf: Settings { loops, xacro: arguments.xacro.settings(of_xacro), ..settings.clone() },
+            urdf: Settings { loops, xacro, ..settings.clone() },
             without_findings: arguments.no_findings,
         };
         Side::open(path, &options).map_err(|error| match error {

@@ -246,3 +246,39 @@ fn a_text_in_many_variants_is_told_once() {
     assert!(human.contains("      in 2 variants: side:=a, side:=b\n"), "{human}");
     assert!(human.contains(" as of urdf/r.urdf.xacro side:=a\n"), "{human}");
 }
+
+/// xacro passes over it, and makes the robot of the defaults.
+#[test]
+fn a_declared_argument_that_no_file_takes_is_refused_by_every_command() {
+    let folder = folder(notes(json!([0, 3, 1, "mass", ""])), MADE, 0);
+    let root = folder.path();
+    let robots = "[[robot]]\npath = \"urdf/r.urdf.xacro\"\nargs = { side = \"a\" }\n";
+    fs::write(root.join("urdd.toml"), robots).expect("written");
+    let file = "urdf/r.urdf.xacro";
+    let run = |words: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
+        let output = command.args(words).current_dir(root).env("PATH", root.join("bin")).output();
+        let output = output.expect("the program");
+        let said = [output.stdout, output.stderr].concat();
+        (output.status.code(), String::from_utf8(said).expect("UTF-8"))
+    };
+    let commands: [&[&str]; 4] = [
+        &["lint", file],
+        &["generate", file, "-o", "made"],
+        &["view", file, "--export", "site"],
+        &["diff", file, file],
+    ];
+    for words in commands {
+        let (status, said) = run(words);
+        assert!(matches!(status, Some(1 | 2)), "{words:?}: {said}");
+        let wanted = "urdd.toml gives the argument `side`, which no file of the robot takes";
+        assert!(said.contains(wanted), "{words:?}: {said}");
+    }
+    // An older version of the file need not take what the newer one does, and neither what somebody types.
+    fs::copy(root.join(file), root.join("urdf/old.urdf.xacro")).expect("copied");
+    fs::write(root.join(file), format!("{MAIN}<!-- $(arg side) -->\n")).expect("written");
+    for words in [&["diff", "urdf/old.urdf.xacro", file][..], &["diff", file, file, "other:=1"]] {
+        let (status, said) = run(words);
+        assert_eq!(status, Some(0), "{words:?}: {said}");
+    }
+}
