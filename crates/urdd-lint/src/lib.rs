@@ -277,7 +277,7 @@ fn has_nameless_text(path: &Path, files: &Files) -> bool {
 /// Why a file was not examined that cannot be read.
 fn unread(path: &Path, error: &SourceError) -> NotExamined {
     let cause = match error {
-        SourceError::Untaken { .. } => Cause::Arguments,
+        SourceError::UnusedArguments { .. } => Cause::Arguments,
         _ => Cause::Unreadable,
     };
     let folder = path.parent().unwrap_or(Path::new(""));

@@ -10,7 +10,7 @@ use urdd_format::escape;
 
 use crate::fault::PlacedFault;
 use crate::note::{MacroCall, SourcePlace};
-use crate::untaken::Untaken;
+use crate::unused_arguments::UnusedArgument;
 
 /// Maximum number of faults of a file that are shown one by one.
 const MOST_SHOWN: usize = 5;
@@ -38,8 +38,8 @@ pub enum SourceError {
     )]
     NeedsArguments { file: String, needed: Vec<XacroArgument>, fault: Box<XacroFault> },
     /// xacro made a robot, without these arguments that are declared of the file: another one than was asked for.
-    #[error("{}: {}", escape::line(file), untaken_words(untaken))]
-    Untaken { file: String, untaken: Vec<Untaken> },
+    #[error("{}: {}", escape::line(file), unused_words(unused))]
+    UnusedArguments { file: String, unused: Vec<UnusedArgument> },
     /// A description of another format than URDF.
     #[error("{}{}: {}", escape::line(file), place(*line, *column), escape::line(fault))]
     Import { file: String, line: u32, column: u32, fault: String },
@@ -95,8 +95,8 @@ impl SourceError {
                     None => fault.place.clone().unwrap_or_else(|| at(file, 0, 0)),
                 }
             }
-            SourceError::Untaken { file, untaken } => {
-                match untaken.iter().find_map(|one| one.nearest.as_ref()) {
+            SourceError::UnusedArguments { file, unused } => {
+                match unused.iter().find_map(|one| one.nearest.as_ref()) {
                     Some((_, own, place)) => {
                         let file = Path::new(file).with_file_name(own);
                         at(&file.to_string_lossy().into_owned(), place.line, place.column)
@@ -125,7 +125,7 @@ impl SourceError {
             SourceError::NoXacro { .. } => "no-xacro",
             SourceError::Xacro { .. } => "xacro-failed",
             SourceError::NeedsArguments { .. } => "needs-arguments",
-            SourceError::Untaken { .. } => "argument-not-taken",
+            SourceError::UnusedArguments { .. } => "argument-not-taken",
             SourceError::Cancelled => "cancelled",
             SourceError::Internal { .. } => "internal",
         }
@@ -182,8 +182,8 @@ impl fmt::Display for XacroFault {
 }
 
 /// What is wrong with declared arguments, and what to do.
-fn untaken_words(untaken: &[Untaken]) -> String {
-    let one = |one: &Untaken| {
+fn unused_words(unused: &[UnusedArgument]) -> String {
+    let one = |one: &UnusedArgument| {
         let tip = match &one.nearest {
             Some((like, file, at)) => {
                 format!(
@@ -197,7 +197,7 @@ fn untaken_words(untaken: &[Untaken]) -> String {
             one.name
         )
     };
-    escape::line(&untaken.iter().map(one).collect::<Vec<_>>().join("; ")).into_owned()
+    escape::line(&unused.iter().map(one).collect::<Vec<_>>().join("; ")).into_owned()
 }
 
 /// Arguments, on one line.

@@ -38,7 +38,7 @@ mod suggested;
 #[cfg(test)]
 mod tests;
 mod trail;
-mod untaken;
+mod unused_arguments;
 pub mod urdf;
 pub mod written;
 mod xacro;
@@ -64,6 +64,6 @@ pub use settings::{
     Declared, ImportOptions, Settings, XACRO_TIMEOUT, XacroSettings, declared_of, robots_of,
 };
 pub use trail::Trail;
-pub use untaken::Untaken;
+pub use unused_arguments::UnusedArgument;
 pub use urdf::cycles;
 pub use xacro::included;

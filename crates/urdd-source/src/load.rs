@@ -19,7 +19,7 @@ use crate::note::{Note, Remark, SourcePlace};
 use crate::settings::Settings;
 use crate::suggested::deciding;
 use crate::trail::Trail;
-use crate::untaken::untaken;
+use crate::unused_arguments::unused_arguments;
 use crate::urdf::{self, Reading};
 use crate::written::Origin;
 use crate::xacro;
@@ -180,9 +180,9 @@ fn read(path: &Path, settings: &Settings, notes: &mut Vec<Note>) -> Result<Read,
             let expanded = xacro::expand(path, &shown, xacro, packages, &settings.cancellation);
             let (text, trail) = expanded.map_err(|error| explained(error, path, settings))?;
             let declared = settings.xacro.arguments.iter().take(settings.xacro.declared);
-            let untaken = untaken(&canonical, &trail, declared);
-            if !untaken.is_empty() {
-                return Err(SourceError::Untaken { file: shown, untaken });
+            let unused = unused_arguments(&canonical, &trail, declared);
+            if !unused.is_empty() {
+                return Err(SourceError::UnusedArguments { file: shown, unused });
             }
             (text, Some(trail))
         }

@@ -12,7 +12,7 @@ use crate::written::SourceFiles;
 
 /// An argument that no file takes.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Untaken {
+pub struct UnusedArgument {
     /// Its name.
     pub name: String,
     /// The declared argument that may be meant, and that has no value: the one of the nearest name, or the only one; its file,
@@ -21,11 +21,11 @@ pub struct Untaken {
 }
 
 /// The arguments, each as `name:=value`, that none of the files takes that xacro read: it neither declares nor uses them.
-pub(crate) fn untaken<'a>(
+pub(crate) fn unused_arguments<'a>(
     file: &Path,
     trail: &Trail,
     given: impl Iterator<Item = &'a String>,
-) -> Vec<Untaken> {
+) -> Vec<UnusedArgument> {
     let given: BTreeSet<&str> = given.filter_map(|word| Some(word.split_once(":=")?.0)).collect();
     // Of a run that noted nothing, nothing is known.
     if given.is_empty() || trail.files.is_empty() {
@@ -54,14 +54,14 @@ pub(crate) fn untaken<'a>(
     open.retain(|name| declared.iter().all(|(known, ..)| known != name));
     let is_free = |known: &&(String, String, Position)| !given.contains(known.0.as_str());
     let free: Vec<_> = declared.iter().filter(is_free).collect();
-    let untaken = open.into_iter().map(|name| {
+    let unused = open.into_iter().map(|name| {
         let like = nearest(free.iter().map(|(known, ..)| known.as_str()), name);
         let nearest = like.and_then(|like| free.iter().find(|(known, ..)| *known == like));
         // The only one without a value is most likely the same, however it is called now.
         let nearest = nearest.or(free.first().filter(|_| free.len() == 1));
-        Untaken { name: name.to_owned(), nearest: nearest.map(|known| (*known).clone()) }
+        UnusedArgument { name: name.to_owned(), nearest: nearest.map(|known| (*known).clone()) }
     });
-    untaken.collect()
+    unused.collect()
 }
 
 /// Whether a text uses an argument: `$(arg NAME)`, or in what is evaluated as Python.
